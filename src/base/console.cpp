@@ -1,0 +1,42 @@
+#include "base/console.h"
+
+#include <algorithm>
+
+namespace telestrain {
+
+Console::Console(std::ostream& out, std::ostream& err, bool show_progress)
+    : out_(out), err_(err), show_progress_(show_progress) {}
+
+void Console::ClearBar() {
+  if (!bar_on_screen_) return;
+  err_ << "\r\x1b[K" << std::flush;
+  bar_on_screen_ = false;
+}
+
+void Console::Say(const std::string& line) {
+  const std::lock_guard lock(mutex_);
+  ClearBar();
+  out_ << line << '\n' << std::flush;
+}
+
+void Console::Note(const std::string& line) {
+  const std::lock_guard lock(mutex_);
+  ClearBar();
+  err_ << line << '\n' << std::flush;
+}
+
+void Console::Warn(const std::string& line) { Note("warning: " + line); }
+
+void Console::Progress(const std::string& label, int done, int total) {
+  if (!show_progress_ || total <= 0) return;
+  const std::lock_guard lock(mutex_);
+  constexpr int kWidth = 32;
+  const int filled = std::clamp(kWidth * done / total, 0, kWidth);
+  err_ << "\r\x1b[K" << label << " [" << std::string(static_cast<std::size_t>(filled), '#')
+       << std::string(static_cast<std::size_t>(kWidth - filled), '-') << "] " << done << '/'
+       << total << std::flush;
+  bar_on_screen_ = true;
+  if (done >= total) ClearBar();
+}
+
+}  // namespace telestrain

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <mutex>
+#include <ostream>
+#include <string>
+
+namespace telestrain {
+
+// Where a command talks to the person: results on `out`, everything else on `err`.
+class Console {
+ public:
+  // `show_progress` draws a progress bar on `err`; pass whether it is a terminal.
+  Console(std::ostream& out, std::ostream& err, bool show_progress);
+
+  void Say(const std::string& line);   // one line of result
+  void Note(const std::string& line);  // one line of side information
+  void Warn(const std::string& line);  // one line, marked as a warning
+
+  // Redraws the bar "label [####----] done/total"; ends the line when done == total. Thread-safe.
+  void Progress(const std::string& label, int done, int total);
+
+ private:
+  void ClearBar();
+
+  std::ostream& out_;
+  std::ostream& err_;
+  bool show_progress_;
+  bool bar_on_screen_ = false;
+  std::mutex mutex_;
+};
+
+}  // namespace telestrain

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "base/result.h"
+
+namespace telestrain {
+
+// The whole file as bytes. Fails (kBadInput) with the path and the system's reason.
+Result<std::string> ReadFile(const std::filesystem::path& path);
+
+// Writes `bytes` under a temporary name beside `path`, syncs and renames, so that `path` is
+// either the old file or the whole new one. Fails (kOutputFailed) and removes the temporary.
+Status WriteFileAtomically(const std::filesystem::path& path, std::string_view bytes);
+
+// Creates the folder and its parents; fails (kOutputFailed) when `path` exists and is no folder.
+Status EnsureFolder(const std::filesystem::path& path);
+
+// SHA-256 as 64 lower-case hexadecimal digits.
+std::string Sha256Hex(std::string_view bytes);
+Result<std::string> Sha256HexOfFile(const std::filesystem::path& path);
+
+}  // namespace telestrain

@@ -1,0 +1,94 @@
+#include "base/files.h"
+
+#include <gtest/gtest.h>
+
+#include <iterator>
+
+#include "tests/unit/base/scratch_folder.h"
+
+namespace telestrain {
+namespace {
+
+std::ptrdiff_t EntryCount(const std::filesystem::path& folder) {
+  return std::distance(std::filesystem::directory_iterator(folder), {});
+}
+
+TEST(FilesTest, BytesReadBackAsWritten) {
+  const ScratchFolder folder("files_bytes");
+  std::string bytes;
+  for (int i = 0; i < 70000; ++i) bytes += static_cast<char>(i * 7 % 256);
+  for (const std::string& content : {bytes, std::string(), std::string("\r\n\0x", 4)}) {
+    ASSERT_TRUE(WriteFileAtomically(folder.path() / "f", content).ok());
+    EXPECT_EQ(*ReadFile(folder.path() / "f"), content);
+  }
+  EXPECT_EQ(EntryCount(folder.path()), 1) << "a temporary file was left";
+}
+
+TEST(FilesTest, AFailedWriteLeavesTheOldFileAndNoTemporary) {
+  const ScratchFolder folder("files_failed");
+  std::filesystem::create_directories(folder.path() / "target" / "inside");
+  const auto status = WriteFileAtomically(folder.path() / "target", "new");
+  ASSERT_FALSE(status.ok());
+  EXPECT_EQ(status.error().kind, ErrorKind::kOutputFailed);
+  EXPECT_NE(status.error().message.find("cannot be written"), std::string::npos);
+  EXPECT_TRUE(std::filesystem::is_directory(folder.path() / "target" / "inside"));
+  EXPECT_EQ(EntryCount(folder.path()), 1);
+}
+
+TEST(FilesTest, WritingIntoNoFolderFails) {
+  const ScratchFolder folder("files_nowhere");
+  EXPECT_FALSE(WriteFileAtomically(folder.path() / "no" / "f", "x").ok());
+}
+
+TEST(FilesTest, ReadingNamesPathAndReason) {
+  const ScratchFolder folder("files_reading");
+  const auto missing = ReadFile(folder.path() / "missing");
+  ASSERT_FALSE(missing.ok());
+  EXPECT_EQ(missing.error().kind, ErrorKind::kBadInput);
+  EXPECT_NE(missing.error().message.find("missing: cannot be read: No such file"),
+            std::string::npos)
+      << missing.error().message;
+  const auto is_folder = ReadFile(folder.path());
+  ASSERT_FALSE(is_folder.ok());
+  EXPECT_NE(is_folder.error().message.find("is a folder"), std::string::npos);
+}
+
+TEST(FilesTest, BadPathsAndFailedReadsAreBadInput) {
+  const ScratchFolder folder("files_bad");
+  std::filesystem::create_symlink("loop", folder.path() / "loop");
+  // The first page of a process' own memory is a file that opens and cannot be read.
+  for (const auto& path : {folder.path() / std::string(5000, 'x'), folder.path() / "loop",
+                           std::filesystem::path("/proc/self/mem")}) {
+    const auto bytes = ReadFile(path);
+    ASSERT_FALSE(bytes.ok()) << path;
+    EXPECT_EQ(bytes.error().kind, ErrorKind::kBadInput);
+  }
+}
+
+TEST(FilesTest, EnsureFolderMakesParentsAndMayBeRepeated) {
+  const ScratchFolder folder("files_ensure");
+  EXPECT_TRUE(EnsureFolder(folder.path() / "a" / "b").ok());
+  EXPECT_TRUE(EnsureFolder(folder.path() / "a" / "b").ok());
+  ASSERT_TRUE(WriteFileAtomically(folder.path() / "file", "x").ok());
+  for (const auto& path : {folder.path() / "file", folder.path() / "file" / "below"}) {
+    const auto status = EnsureFolder(path);
+    ASSERT_FALSE(status.ok()) << path;
+    EXPECT_EQ(status.error().kind, ErrorKind::kOutputFailed);
+  }
+}
+
+TEST(Sha256Test, GivesThePublishedDigests) {
+  // FIPS 180-4 examples and the empty message.
+  EXPECT_EQ(Sha256Hex(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+  EXPECT_EQ(Sha256Hex("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+}
+
+TEST(Sha256Test, OfAFileIsThatOfItsBytes) {
+  const ScratchFolder folder("files_sha");
+  ASSERT_TRUE(WriteFileAtomically(folder.path() / "f", "abc").ok());
+  EXPECT_EQ(*Sha256HexOfFile(folder.path() / "f"), Sha256Hex("abc"));
+  EXPECT_FALSE(Sha256HexOfFile(folder.path() / "g").ok());
+}
+
+}  // namespace
+}  // namespace telestrain

@@ -1,0 +1,64 @@
+#include "base/json_file.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "base/files.h"
+#include "tests/unit/base/scratch_folder.h"
+
+namespace telestrain {
+namespace {
+
+constexpr char kSchema[] = "telestrain.test/1";
+
+std::string MessageOf(const std::filesystem::path& path) {
+  const auto json = ReadJson(path, kSchema, "telestrain make");
+  EXPECT_FALSE(json.ok());
+  return json ? "" : json.error().message;
+}
+
+TEST(JsonFileTest, KeepsOrderAndDoubles) {
+  const ScratchFolder folder("json_order");
+  nlohmann::ordered_json json;
+  json["schema"] = kSchema;
+  json["z"] = 0.1 + 0.2;
+  json["a"] = {1.0 / 3.0, 1e-300, -0.0};
+  ASSERT_TRUE(WriteJson(folder.path() / "f.json", json).ok());
+  const auto again = ReadJson(folder.path() / "f.json", kSchema, "telestrain make");
+  ASSERT_TRUE(again.ok());
+  EXPECT_EQ(*again, json);
+  EXPECT_EQ(JsonText(*again), JsonText(json));
+  EXPECT_LT(JsonText(json).find("\"z\""), JsonText(json).find("\"a\""));
+  EXPECT_TRUE(JsonText(json).ends_with("}\n"));
+}
+
+TEST(JsonFileTest, ErrorsSayWhatMakesTheFile) {
+  const ScratchFolder folder("json_errors");
+  const auto path = folder.path() / "f.json";
+  EXPECT_NE(MessageOf(path).find("does not exist; run 'telestrain make' first"), std::string::npos);
+  ASSERT_TRUE(WriteFileAtomically(path, "{\"schema\": ").ok());
+  EXPECT_NE(MessageOf(path).find("is not valid JSON"), std::string::npos);
+  for (const char* text : {"{\"schema\": \"telestrain.test/2\"}", "{}", "[1]", "3"}) {
+    ASSERT_TRUE(WriteFileAtomically(path, text).ok());
+    EXPECT_NE(MessageOf(path).find("wanted 'telestrain.test/1'"), std::string::npos) << text;
+  }
+  ASSERT_TRUE(WriteFileAtomically(path, "{\"schema\": 3}").ok());
+  EXPECT_NE(MessageOf(path).find("telestrain make"), std::string::npos);
+}
+
+TEST(JsonFileTest, APathThatCannotBeAskedForIsBadInput) {
+  const ScratchFolder folder("json_paths");
+  std::filesystem::create_symlink("loop", folder.path() / "loop");
+  ASSERT_TRUE(WriteFileAtomically(folder.path() / "file", "x").ok());
+  for (const auto& path : {folder.path() / std::string(5000, 'x'), folder.path() / "loop",
+                           folder.path() / "file" / "f.json"}) {
+    const auto json = ReadJson(path, kSchema, "telestrain make");
+    ASSERT_FALSE(json.ok());
+    EXPECT_EQ(json.error().kind, ErrorKind::kBadInput);
+    EXPECT_NE(json.error().message.find("telestrain make"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace telestrain
