@@ -1,0 +1,136 @@
+#include "calibration/calibration_data.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <algorithm>
+#include <map>
+#include <set>
+
+namespace telestrain {
+namespace {
+
+int ViewIndex(const Session& session, const std::string& name) {
+  for (std::size_t i = 0; i < session.views.size(); ++i)
+    if (session.views[i].name == name) return static_cast<int>(i);
+  return -1;
+}
+
+Eigen::Matrix2d Whitening(const Eigen::Matrix2d& covariance_px2, double floor_px) {
+  const Eigen::Matrix2d padded = covariance_px2 + floor_px * floor_px * Eigen::Matrix2d::Identity();
+  const Eigen::Matrix2d lower = padded.llt().matrixL();
+  return lower.inverse();
+}
+
+BoardData MakeBoard(const BoardObservation& observation, const Eigen::Matrix3Xd& corners_in_target,
+                    double floor_px) {
+  BoardData board;
+  for (std::size_t i = 0; i < observation.corners.size(); ++i)
+    if (observation.corners[i]) board.corner.push_back(static_cast<int>(i));
+  const auto count = static_cast<Eigen::Index>(board.corner.size());
+  board.corners_in_target_mm.resize(3, count);
+  board.pixels.resize(2, count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const int corner = board.corner[static_cast<std::size_t>(i)];
+    const ImagePoint& point = *observation.corners[static_cast<std::size_t>(corner)];
+    board.corners_in_target_mm.col(i) = corners_in_target.col(corner);
+    board.pixels.col(i) = point.pixel;
+    board.whitening.push_back(Whitening(point.covariance_px2, floor_px));
+  }
+  return board;
+}
+
+}  // namespace
+
+void BoardData::RemoveCorners(const std::vector<bool>& remove) {
+  Eigen::Index kept = 0;
+  for (std::size_t i = 0; i < remove.size(); ++i) {
+    if (remove[i]) continue;
+    corner[static_cast<std::size_t>(kept)] = corner[i];
+    whitening[static_cast<std::size_t>(kept)] = whitening[i];
+    corners_in_target_mm.col(kept) = corners_in_target_mm.col(static_cast<Eigen::Index>(i)).eval();
+    pixels.col(kept) = pixels.col(static_cast<Eigen::Index>(i)).eval();
+    ++kept;
+  }
+  corner.resize(static_cast<std::size_t>(kept));
+  whitening.resize(static_cast<std::size_t>(kept));
+  corners_in_target_mm.conservativeResize(3, kept);
+  pixels.conservativeResize(2, kept);
+}
+
+Eigen::Index CalibrationData::CornerCount() const {
+  Eigen::Index count = 0;
+  for (const BoardData& board : boards) count += board.Count();
+  return count;
+}
+
+void CalibrationData::DropUndeterminedImages(const Session& session) {
+  // Of two views at an angle phi the information on the depth is 1 - cos(phi); 0.02 is 11 degrees.
+  constexpr double kMinDepthInformation = 0.02;
+  std::map<int, Eigen::Matrix3d> information;
+  for (const BoardData& board : boards) {
+    const auto axes =
+        session.NominalTelecentricView(session.views[static_cast<std::size_t>(board.view)])
+            .axes_in_array;
+    information.try_emplace(board.image, Eigen::Matrix3d::Zero()).first->second +=
+        axes.transpose() * axes;
+  }
+  const auto is_determined = [&](int image) {
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(information.at(image));
+    return solver.eigenvalues()(0) > kMinDepthInformation;
+  };
+  for (const BoardData& board : boards) {
+    if (is_determined(board.image)) continue;
+    rejected.push_back({images[static_cast<std::size_t>(board.image)].image,
+                        session.views[static_cast<std::size_t>(board.view)].name,
+                        "no second view from another direction sees the target in this image: the "
+                        "depth of the pose is not determined",
+                        static_cast<int>(board.Count())});
+  }
+  std::erase_if(boards, [&](const BoardData& b) { return !is_determined(b.image); });
+  std::map<int, int> new_index;
+  std::vector<CalibrationImage> kept;
+  for (BoardData& board : boards) {
+    const auto [at, is_new] = new_index.try_emplace(board.image, static_cast<int>(kept.size()));
+    if (is_new) kept.push_back(images[static_cast<std::size_t>(board.image)]);
+    board.image = at->second;
+  }
+  images = std::move(kept);
+}
+
+Result<CalibrationData> CollectCalibrationData(const Session& session,
+                                               const std::vector<BoardObservation>& observations,
+                                               double floor_px) {
+  CalibrationData data;
+  data.images = session.calibration_images;
+  data.floor_px = floor_px;
+  std::map<std::string, int> image_index;
+  for (std::size_t i = 0; i < data.images.size(); ++i)
+    image_index[data.images[i].image] = static_cast<int>(i);
+  for (const BoardObservation& observation : observations) {
+    const int view = ViewIndex(session, observation.view);
+    const auto image = image_index.find(observation.image);
+    if (view < 0 || image == image_index.end())
+      return BadInput("corners.vnl: '" + observation.image + "#" + observation.view +
+                      "' is not an image and view of the session; detect the corners again with "
+                      "'telestrain detect'");
+    if (!observation.rejected_because.empty()) {
+      data.rejected.push_back({observation.image, observation.view, observation.rejected_because});
+      continue;
+    }
+    const SubBoard* sub_board =
+        session.target.FindBoard(session.views[static_cast<std::size_t>(view)].group);
+    TELESTRAIN_CHECK(sub_board != nullptr, "a checked session has a board for every group");
+    data.boards.push_back(
+        MakeBoard(observation, session.target.CornersInTarget(*sub_board), floor_px));
+    data.boards.back().image = image->second;
+    data.boards.back().view = view;
+  }
+  std::stable_sort(data.boards.begin(), data.boards.end(), [](const auto& a, const auto& b) {
+    return std::pair(a.image, a.view) < std::pair(b.image, b.view);
+  });
+  data.DropUndeterminedImages(session);
+  return data;
+}
+
+}  // namespace telestrain

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "calibration/calibrate.h"
+
+namespace telestrain {
+
+inline constexpr const char* kCalibrationSchema = "telestrain.calibration/1";
+
+// calibration.json; `made_from` names the inputs with their SHA-256.
+nlohmann::ordered_json CalibrationJson(const Session& session, const Calibration& calibration,
+                                       const std::map<std::string, std::string>& made_from);
+
+// residuals.csv: one line per corner, measured minus predicted.
+std::string ResidualsCsv(const Session& session, const Calibration& calibration);
+
+// Lens, views and covariance of a calibration.json. Fails (kBadInput) when the file is missing or
+// lacks a key.
+Result<ArrayCalibration> ReadArrayCalibration(const std::filesystem::path& path);
+
+}  // namespace telestrain

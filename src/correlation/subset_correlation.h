@@ -1,0 +1,108 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/gray_image.h"
+#include "session/session.h"
+
+namespace telestrain {
+
+struct CorrelationOptions {
+  int subset_px = 61;               // odd side of the square subset
+  double prefilter_sigma_px = 0.7;  // Gaussian blur of both images: removes interpolation bias
+  int max_iterations = 30;
+  double convergence_px = 1e-4;    // on the change of the subset's corners
+  double min_zncc = 0.5;           // below it a match is reported as decorrelated
+  double min_contrast_gray = 2.0;  // rms grey level of a subset that can be correlated
+  int threads = 0;                 // 0: one per core
+};
+
+// First-order shape function: the pixel at offset d from the subset's centre c is found at
+// c + d + displacement_px + gradient d.
+struct ShapeFunction {
+  Eigen::Vector2d displacement_px = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d gradient = Eigen::Matrix2d::Zero();  // [du/dx du/dy; dv/dx dv/dy]
+};
+
+enum class MatchStatus { kConverged, kLowContrast, kOutside, kNotConverged, kLowCorrelation };
+std::string ToText(MatchStatus status);
+
+struct SubsetMatch {
+  MatchStatus status = MatchStatus::kNotConverged;
+  ShapeFunction shape;
+  double zncc = 0;  // zero-mean normalised cross-correlation at the end
+  // Noise (and misfit) of one image before the blur, from the residual. Low by 4 % with a prefilter
+  // of 0.5 px and more below: the interpolation itself smooths the noise.
+  double sigma_gray = 0;
+  // Of (u, v, du/dx, du/dy, dv/dx, dv/dy), from the Hessian and the measured noise, which the blur
+  // correlates between pixels.
+  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
+  int iterations = 0;
+  bool ok() const { return status == MatchStatus::kConverged; }
+};
+
+// A region of an image, blurred and turned into quintic B-spline coefficients. Copyable; holds one
+// float a pixel. Pixel coordinates are those of the whole image. `gradient` is how much the image
+// is stretched against the reference on the whole (another view of the same surface): the blur is
+// stretched with it, so that both images lose the same detail of the surface.
+class PreparedImage {
+ public:
+  PreparedImage(const GrayImage& image, const PixelRegion& region,
+                const CorrelationOptions& options,
+                const Eigen::Matrix2d& gradient = Eigen::Matrix2d::Zero());
+  const PixelRegion& region() const { return region_; }
+  // Interpolated (blurred) grey level; the position must be at least 3 px inside the region.
+  float Sample(double x_px, double y_px) const;
+
+ private:
+  friend class CorrelationReference;
+  PixelRegion region_;
+  int stride_ = 0;
+  std::vector<float> coefficients_;
+  double blurred_noise_variance_ = 1;  // of the blurred image, when that of the image is one
+};
+
+// The reference state: grey levels and gradients of the blurred image at whole pixels.
+class CorrelationReference {
+ public:
+  CorrelationReference(const GrayImage& image, const PixelRegion& region,
+                       const CorrelationOptions& options);
+  const PixelRegion& region() const { return region_; }
+  const CorrelationOptions& options() const { return options_; }
+
+  // Inverse-compositional Gauss-Newton on the zero-mean normalised sum of squared differences from
+  // `start` (MODEL: correlation.md of the design, Pan et al. 2013). Thread-safe.
+  SubsetMatch Match(const Eigen::Vector2i& center_px, const PreparedImage& image,
+                    const ShapeFunction& start) const;
+
+ private:
+  PixelRegion region_;
+  CorrelationOptions options_;
+  std::vector<float> gray_, gradient_x_, gradient_y_;
+  // The gradients blurred once more: what the prefilter lets through of the images' noise.
+  std::vector<float> noise_gradient_x_, noise_gradient_y_;
+  double blurred_noise_variance_ = 1;
+};
+
+// Whole-pixel shift of the content of `region` from `reference` to `image` by an exhaustive search
+// over +-max_shift_px on reduced images, refined at full resolution; the best of several blocks.
+struct ShiftSearch {
+  Eigen::Vector2d shift_px = Eigen::Vector2d::Zero();
+  double zncc = 0;
+};
+ShiftSearch SearchShift(const GrayImage& reference, const GrayImage& image,
+                        const PixelRegion& region, int max_shift_px);
+
+// Tracks every centre from the reference to `image`: `starts` has one entry per centre (or a single
+// one for all); a point that fails is tried again from its converged neighbours. One result per
+// centre, in order, identical for any number of threads.
+std::vector<SubsetMatch> CorrelatePoints(const CorrelationReference& reference,
+                                         const std::vector<Eigen::Vector2i>& centers_px,
+                                         const PreparedImage& image,
+                                         const std::vector<ShapeFunction>& starts);
+
+}  // namespace telestrain

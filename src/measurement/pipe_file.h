@@ -1,0 +1,25 @@
+#pragma once
+
+#include <map>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "measurement/pipe_measurement.h"
+
+namespace telestrain {
+
+// strain.csv, one line per state.
+std::string StrainCsv(const PipeMeasurement& measurement);
+
+// strain.json; `made_from` names the inputs with their SHA-256.
+nlohmann::ordered_json StrainJson(const PipeMeasurement& measurement,
+                                  const std::map<std::string, std::string>& made_from);
+
+// "pipe_000.vtp" for the reference and so on.
+std::string SurfaceFileName(std::size_t state);
+
+// The surface of one state as VTK XML PolyData: points where they are in that state (array frame,
+// mm), displacement, strain, quality and uncertainty as point data, quads between grid neighbours.
+std::string SurfaceVtp(const PipeGrid& grid, const StateStrain& state);
+
+}  // namespace telestrain

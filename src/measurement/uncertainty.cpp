@@ -1,0 +1,32 @@
+#include "measurement/uncertainty.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace telestrain {
+
+double Combine(const std::vector<BudgetLine>& budget) {
+  double sum = 0;
+  for (const BudgetLine& line : budget)
+    sum += line.standard_uncertainty * line.standard_uncertainty;
+  return std::sqrt(sum);
+}
+
+double CalibrationPart(const ArrayCalibration& array,
+                       const std::function<double(const ArrayCalibration&)>& result) {
+  const Eigen::Index size = array.covariance.rows();
+  Eigen::VectorXd gradient(size);
+  for (Eigen::Index i = 0; i < size; ++i) {
+    const double step = std::sqrt(std::max(0.0, array.covariance(i, i)));
+    if (step == 0) {
+      gradient(i) = 0;
+      continue;
+    }
+    Eigen::VectorXd delta = Eigen::VectorXd::Zero(size);
+    delta(i) = step;
+    gradient(i) = (result(array.Perturbed(delta)) - result(array.Perturbed(-delta))) / (2 * step);
+  }
+  return std::sqrt(std::max(0.0, gradient.dot(array.covariance * gradient)));
+}
+
+}  // namespace telestrain

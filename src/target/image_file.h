@@ -1,0 +1,24 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "base/gray_image.h"
+#include "base/result.h"
+
+namespace telestrain {
+
+// Whether the bytes of an image file can be what `ReadGrayImage` wants, without decoding them: not
+// empty, a known format, the wanted size (with width_px > 0), not cut short. `name` stands for the
+// file in the message.
+Status CheckImageBytes(const std::string& name, std::string_view bytes, int width_px = 0,
+                       int height_px = 0);
+
+// Decodes an 8- or 16-bit PNG, TIFF, BMP, PGM or JPEG as grey levels (colour is converted). Fails
+// (kBadInput) when the file is unreadable or, with width_px > 0, when the size is not the wanted
+// one; the message names file, found and wanted size.
+Result<GrayImage> ReadGrayImage(const std::filesystem::path& path, int width_px = 0,
+                                int height_px = 0);
+
+}  // namespace telestrain

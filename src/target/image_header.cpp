@@ -1,0 +1,102 @@
+#include "target/image_header.h"
+
+#include <cctype>
+#include <cstdint>
+#include <cstdlib>
+#include <string>
+
+namespace telestrain {
+namespace {
+
+// `count` bytes at `at` as an unsigned number; 0 beyond the end.
+std::uint32_t Unsigned(std::string_view bytes, std::size_t at, std::size_t count, bool big_endian) {
+  if (at > bytes.size() || bytes.size() - at < count) return 0;
+  std::uint32_t value = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t from = big_endian ? at + i : at + count - 1 - i;
+    value = (value << 8) | static_cast<unsigned char>(bytes[from]);
+  }
+  return value;
+}
+
+std::optional<ImageSize> BmpSize(std::string_view bytes) {
+  const auto height = static_cast<std::int32_t>(Unsigned(bytes, 22, 4, false));
+  return ImageSize{Unsigned(bytes, 18, 4, false), std::llabs(height)};  // top-down if negative
+}
+
+// "P5 width height ...", with comments from '#' to the line's end.
+std::optional<ImageSize> PnmSize(std::string_view bytes) {
+  long long values[2] = {0, 0};
+  std::size_t at = 2;
+  for (long long& value : values) {
+    while (at < bytes.size() && !std::isdigit(static_cast<unsigned char>(bytes[at]))) {
+      if (bytes[at] == '#') at = bytes.find('\n', at);
+      if (at == std::string_view::npos) return std::nullopt;
+      ++at;
+    }
+    for (int digits = 0; at < bytes.size() && std::isdigit(static_cast<unsigned char>(bytes[at]));
+         ++at, ++digits) {
+      if (digits > 9) return std::nullopt;
+      value = 10 * value + (bytes[at] - '0');
+    }
+  }
+  return ImageSize{values[0], values[1]};
+}
+
+// Tags 256 and 257 of the first directory.
+std::optional<ImageSize> TiffSize(std::string_view bytes, bool big_endian) {
+  const std::size_t directory = Unsigned(bytes, 4, 4, big_endian);
+  const std::uint32_t count = Unsigned(bytes, directory, 2, big_endian);
+  ImageSize size;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t entry = directory + 2 + 12 * i;
+    const std::uint32_t tag = Unsigned(bytes, entry, 2, big_endian);
+    const bool is_short = Unsigned(bytes, entry + 2, 2, big_endian) == 3;
+    const std::uint32_t value = Unsigned(bytes, entry + 8, is_short ? 2 : 4, big_endian);
+    if (tag == 256) size.width_px = value;
+    if (tag == 257) size.height_px = value;
+  }
+  return size;
+}
+
+// Walks the segments to the start of frame.
+std::optional<ImageSize> JpegSize(std::string_view bytes) {
+  std::size_t at = 2;
+  while (at + 9 < bytes.size() && bytes[at] == '\xFF') {
+    const auto marker = static_cast<unsigned char>(bytes[at + 1]);
+    const bool starts_frame =
+        marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 && marker != 0xCC;
+    if (starts_frame)
+      return ImageSize{Unsigned(bytes, at + 7, 2, true), Unsigned(bytes, at + 5, 2, true)};
+    at += marker == 0xFF ? 1 : 2 + Unsigned(bytes, at + 2, 2, true);
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<ImageSize> SizeFromHeader(std::string_view bytes) {
+  std::optional<ImageSize> size;
+  if (bytes.starts_with("\x89PNG\r\n\x1A\n"))
+    size = ImageSize{Unsigned(bytes, 16, 4, true), Unsigned(bytes, 20, 4, true)};
+  else if (bytes.starts_with("BM"))
+    size = BmpSize(bytes);
+  else if (bytes.size() > 2 && bytes[0] == 'P' && bytes[1] >= '1' && bytes[1] <= '6')
+    size = PnmSize(bytes);
+  else if (bytes.starts_with("II"))
+    size = TiffSize(bytes, false);
+  else if (bytes.starts_with("MM"))
+    size = TiffSize(bytes, true);
+  else if (bytes.starts_with("\xFF\xD8"))
+    size = JpegSize(bytes);
+  if (size && (size->width_px <= 0 || size->height_px <= 0)) return std::nullopt;
+  return size;
+}
+
+bool IsCutShort(std::string_view bytes) {
+  if (bytes.starts_with("\xFF\xD8")) return bytes.rfind("\xFF\xD9") == std::string_view::npos;
+  if (bytes.starts_with("\x89PNG\r\n\x1A\n")) return bytes.rfind("IEND") == std::string_view::npos;
+  return false;
+}
+
+}  // namespace telestrain
