@@ -1,0 +1,153 @@
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "base/files.h"
+#include "base/json_file.h"
+#include "base/numbers.h"
+#include "report/acceptance_report.h"
+#include "report/results_parts.h"
+
+namespace telestrain {
+namespace {
+
+struct Parts {
+  Json inputs, detection, calibration, ruler, strain;  // null when the file does not exist
+};
+
+Result<Json> ReadOptional(const std::filesystem::path& path, const std::string& schema,
+                          const std::string& maker) {
+  if (!std::filesystem::exists(path)) return Json(nullptr);
+  return ReadJson(path, schema, maker);
+}
+
+Result<Parts> ReadParts(const std::filesystem::path& results) {
+  Parts parts;
+  TELESTRAIN_ASSIGN_OR_RETURN(
+      parts.inputs, ReadJson(results / "inputs.json", "telestrain.inputs/1", "telestrain detect"));
+  TELESTRAIN_ASSIGN_OR_RETURN(
+      parts.detection,
+      ReadOptional(results / "detection.json", "telestrain.detection/1", "telestrain detect"));
+  TELESTRAIN_ASSIGN_OR_RETURN(parts.calibration,
+                              ReadOptional(results / "calibration.json", "telestrain.calibration/1",
+                                           "telestrain calibrate"));
+  TELESTRAIN_ASSIGN_OR_RETURN(
+      parts.ruler, ReadOptional(results / "ruler.json", "telestrain.ruler/1", "telestrain verify"));
+  TELESTRAIN_ASSIGN_OR_RETURN(
+      parts.strain,
+      ReadOptional(results / "strain.json", "telestrain.strain/1", "telestrain measure"));
+  return parts;
+}
+
+std::string RuleSentence(const Acceptance& acceptance) {
+  const std::string k = FormatShortest(acceptance.coverage_factor);
+  if (acceptance.rule == DecisionRule::kSimple)
+    return "Decision rule: simple acceptance; pass if |result| ≤ limit, fail otherwise. The "
+           "expanded uncertainty U (k = " +
+           k + ") is stated and not used for the decision.";
+  return "Decision rule: guarded after ISO 14253-1; pass if |result| + U ≤ limit, fail if "
+         "|result| - U > limit, in doubt between. U is the expanded uncertainty, k = " +
+         k +
+         "; a result that has no U by its nature is compared directly, one whose U is missing is "
+         "not decided.";
+}
+
+// Limits that were asked for and could not be decided, so that a pass never hides them.
+std::string UndecidedSentence(const ResultsDraft& draft) {
+  std::string names;
+  for (const Quantity& quantity : draft.quantities)
+    if (quantity.limit && quantity.verdict.value_or(Verdict::kUndecided) == Verdict::kUndecided)
+      names += (names.empty() ? "" : "; ") + quantity.label;
+  return names.empty() ? "" : "Not decided although a limit is set: " + names + ".";
+}
+
+ResultTable SummaryTable(const ResultsDraft& draft) {
+  ResultTable table("summary", "Summary of results",
+                    {{"Quantity", ""},
+                     {"Result", ""},
+                     {"U (k = " + FormatShortest(draft.acceptance.coverage_factor) + ")", ""},
+                     {"Limit", ""},
+                     {"Unit", ""},
+                     {"Verdict", ""}});
+  for (const Quantity& quantity : draft.quantities) {
+    if (!quantity.in_summary) continue;
+    const Json json = QuantityJson(quantity, draft.acceptance.coverage_factor);
+    table.AddRow(
+        {quantity.label,
+         {{"value", json["value"]}, {"printed", json["printed"]}},
+         {{"value", json["expanded_uncertainty"]}, {"printed", json["printed_uncertainty"]}},
+         {{"value", json["limit"]}, {"printed", json["printed_limit"]}},
+         quantity.unit,
+         VerdictCell(quantity.verdict.value_or(Verdict::kUndecided))});
+  }
+  return table;
+}
+
+// The files this report was made from, as they are now.
+Result<ResultTable> EvidenceTable(const std::filesystem::path& results) {
+  ResultTable table("result-files", "Files of the results folder",
+                    {{"File", ""}, {"Size", "bytes"}, {"SHA-256", ""}});
+  for (const char* name : {"inputs.json", "detection.json", "calibration.json", "residuals.csv",
+                           "ruler.json", "strain.json"}) {
+    if (!std::filesystem::exists(results / name)) continue;
+    TELESTRAIN_ASSIGN_OR_RETURN(const std::string bytes, ReadFile(results / name));
+    table.AddRow({name, CountCell(static_cast<double>(bytes.size())), Sha256Hex(bytes)});
+  }
+  return table;
+}
+
+Json ResultsJson(ResultsDraft draft, const Json& inputs, const std::string& verdict) {
+  Json json = {{"schema", "telestrain.results/1"},
+               {"verdict", verdict},
+               {"title", TextAt(inputs, "/title")},
+               {"document", EntryAt(inputs, "/document")},
+               {"decision",
+                {{"rule", draft.acceptance.rule == DecisionRule::kSimple ? "simple" : "guarded"},
+                 {"coverage_factor", draft.acceptance.coverage_factor},
+                 {"printed", RuleSentence(draft.acceptance)},
+                 {"printed_undecided", UndecidedSentence(draft)}}},
+               {"measured", draft.measured},
+               {"quantities", Json::array()},
+               {"tables", std::move(draft.tables)},
+               {"inputs", inputs}};
+  if (!json["document"].is_object()) json["document"] = Json::object();
+  for (const Quantity& quantity : draft.quantities)
+    json["quantities"].push_back(QuantityJson(quantity, draft.acceptance.coverage_factor));
+  return json;
+}
+
+// Only what was measured can be accepted, even where nothing had to be decided. A limit that could
+// not be decided must not hide behind others that passed.
+Outcome OutcomeOf(const ResultsDraft& draft) {
+  std::vector<Verdict> verdicts;
+  for (const Quantity& quantity : draft.quantities)
+    verdicts.push_back(quantity.verdict.value_or(Verdict::kUndecided));
+  Outcome outcome{VerdictName(OverallVerdict(verdicts)), false};
+  const bool all_decided = UndecidedSentence(draft).empty();
+  if (outcome.verdict == "pass" && !all_decided) outcome.verdict = "undecided";
+  const bool measured = std::any_of(draft.measured.begin(), draft.measured.end(),
+                                    [](const Json& section) { return section == true; });
+  const bool nothing_to_decide = outcome.verdict == "undecided" && all_decided;
+  outcome.accepted = measured && (outcome.verdict == "pass" || nothing_to_decide);
+  return outcome;
+}
+
+}  // namespace
+
+Result<Outcome> MakeResults(const std::filesystem::path& results) {
+  TELESTRAIN_ASSIGN_OR_RETURN(const Parts parts, ReadParts(results));
+  ResultsDraft draft;
+  draft.acceptance = ReadAcceptance(parts.inputs);
+  AddCalibration(parts.calibration, parts.detection, draft);
+  AddRuler(parts.ruler, draft);
+  AddStrain(parts.strain, parts.calibration, draft);
+  draft.AddTable(SummaryTable(draft));
+  AddInputs(parts.inputs, draft);
+  TELESTRAIN_ASSIGN_OR_RETURN(ResultTable evidence, EvidenceTable(results));
+  draft.AddTable(std::move(evidence));
+  const Outcome outcome = OutcomeOf(draft);
+  TELESTRAIN_RETURN_IF_ERROR(WriteJson(
+      results / "results.json", ResultsJson(std::move(draft), parts.inputs, outcome.verdict)));
+  return outcome;
+}
+
+}  // namespace telestrain

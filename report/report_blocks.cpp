@@ -1,0 +1,305 @@
+#include "report/report_blocks.h"
+
+#include <algorithm>
+#include <map>
+
+#include "report/report_charts.h"
+#include "report/table_block.h"
+#include "report/unicode_text.h"
+
+namespace telestrain {
+namespace {
+
+constexpr Color kWhite{1, 1, 1};
+constexpr double kPixel_pt = 72.0 / 300;  // pictures are printed at 300 dpi
+
+Color PaleAccent() { return ColorOf(0xC9D6E3); }
+
+// The coloured band over the whole width of the first page.
+Status DrawTitle(const ReportContext& context, const Json& block) {
+  PageFlow& flow = context.flow;
+  const TextStyle title{Face::kBold, 20, kWhite}, subtitle{Face::kRegular, 10.5, PaleAccent()};
+  const double right_pt = 52 * kPointsPerMm, left_pt = flow.width_pt() - right_pt - 12;
+  const std::string text = context.Fill(block, "text"), below = context.Fill(block, "subtitle");
+  double right_height_pt = 0;
+  const auto right_style = [&](std::size_t i) {
+    return i == 0 ? TextStyle{Face::kBold, 11, kWhite} : TextStyle{Face::kRegular, 9, PaleAccent()};
+  };
+  const Json& right = ListAt(block, "/right");
+  for (std::size_t i = 0; i < right.size(); ++i)
+    right_height_pt += flow.TextHeight_pt(right_style(i), right_pt,
+                                          FillIn(right[i].get<std::string>(), context.results));
+  const double left_height_pt =
+      flow.TextHeight_pt(title, left_pt, text) + 3 + flow.TextHeight_pt(subtitle, left_pt, below);
+  const double band_pt = std::max(left_height_pt, right_height_pt) + 40;
+  flow.pdf().FillBox({0, kPageHeight_pt - band_pt, kPageWidth_pt, band_pt}, flow.look().accent);
+  double y_pt = kPageHeight_pt - 22;
+  y_pt -= flow.TextBlock(title, {flow.left_pt(), y_pt}, left_pt, text) + 3;
+  flow.TextBlock(subtitle, {flow.left_pt(), y_pt}, left_pt, below);
+  y_pt = kPageHeight_pt - 26;
+  for (std::size_t i = 0; i < right.size(); ++i)
+    y_pt -= flow.TextBlock(right_style(i), {flow.right_pt() - right_pt, y_pt}, right_pt,
+                           FillIn(right[i].get<std::string>(), context.results), Align::kRight);
+  flow.MoveTo(kPageHeight_pt - band_pt - 16);
+  return {};
+}
+
+// The badge; the lines of the document stand to its left.
+Status DrawVerdict(const ReportContext& context, const Json& block) {
+  PageFlow& flow = context.flow;
+  static const std::map<std::string, std::pair<const char*, const char*>> kBadges = {
+      {"pass", {"✓", "PASS"}},
+      {"doubt", {"?", "IN DOUBT"}},
+      {"fail", {"✗", "FAIL"}},
+      {"undecided", {"–", "NOT DECIDED"}}};
+  const std::string verdict = TextAt(context.results, "/verdict", "undecided");
+  const auto& [symbol, word] =
+      kBadges.count(verdict) ? kBadges.at(verdict) : kBadges.at("undecided");
+  const std::string text = std::string(symbol) + "  " + context.layout.Translate(word);
+  TextStyle style{Face::kBold, 16, kWhite};
+  const double width_pt = 46 * kPointsPerMm, height_pt = 34;
+  while (flow.pdf().TextWidth_pt(style, text) > width_pt - 16 && style.size_pt > 6)
+    style.size_pt -= 0.5;
+  const double top_pt = flow.y_pt();
+  const int page = flow.pdf().PageCount();
+  flow.pdf().FillBox({flow.right_pt() - width_pt, top_pt - height_pt, width_pt, height_pt},
+                     flow.look().OfVerdict(verdict));
+  flow.pdf().DrawText(
+      style, {flow.right_pt() - width_pt / 2, top_pt - height_pt / 2 - 0.36 * style.size_pt}, text,
+      Align::kCenter);
+  DrawFacts(flow, context.Table(TextAt(block, "/table")), 1, flow.width_pt() - width_pt - 14,
+            [&](const std::string& name) { return context.layout.Translate(name); });
+  if (flow.pdf().PageCount() == page) flow.MoveTo(std::min(flow.y_pt(), top_pt - height_pt - 10));
+  return {};
+}
+
+Status DrawHeading(const ReportContext& context, const Json& block) {
+  PageFlow& flow = context.flow;
+  const int level = static_cast<int>(NumberAt(block, "/level").value_or(1));
+  const TextStyle style{Face::kBold, level == 1 ? 13.0 : 10.5, flow.look().accent};
+  const std::string text = context.Fill(block, "text");
+  flow.Require(style.LineHeight_pt() + 70);  // not alone at the foot of a page
+  flow.Advance(level == 1 ? 8 : 4);
+  flow.pdf().AddBookmark(text, level, flow.y_pt() + 8);
+  flow.Paragraph(style, text);
+  flow.Advance(level == 1 ? 5 : 3);
+  return {};
+}
+
+Status DrawText(const ReportContext& context, const Json& block) {
+  PageFlow& flow = context.flow;
+  const std::string text = context.Fill(block, "text");
+  if (text.empty()) return {};
+  const std::string style = TextAt(block, "/style", "body");
+  const Look& look = flow.look();
+  flow.Paragraph(style == "note"     ? look.Note()
+                 : style == "strong" ? look.Strong()
+                                     : look.Body(),
+                 text);
+  flow.Advance(6);
+  return {};
+}
+
+// What stands in place of a block whose data do not exist.
+Status DrawOtherwise(const ReportContext& context, const Json& block) {
+  const std::string text = context.Fill(block, "otherwise");
+  if (text.empty()) return {};
+  context.flow.Paragraph(context.flow.look().Note(), text);
+  context.flow.Advance(6);
+  return {};
+}
+
+Status DrawKeyValues(const ReportContext& context, const Json& block) {
+  PageFlow& flow = context.flow;
+  const Json& table = context.Table(TextAt(block, "/table"));
+  if (ListAt(table, "/rows").empty()) return {};
+  if (EntryAt(block, "/show_title") != false) {
+    flow.Require(50);
+    flow.Paragraph(flow.look().Strong(), context.layout.Translate(TextAt(table, "/title")));
+    flow.Advance(2);
+  }
+  DrawFacts(flow, table, static_cast<int>(NumberAt(block, "/columns").value_or(1)), flow.width_pt(),
+            [&](const std::string& name) { return context.layout.Translate(name); });
+  return {};
+}
+
+Status DrawTableBlock(const ReportContext& context, const Json& block) {
+  const Json& table = context.Table(TextAt(block, "/table"));
+  if (ListAt(table, "/rows").empty()) return DrawOtherwise(context, block);
+  TableStyle style;
+  style.width_mm = NumberAt(block, "/width_mm").value_or(0);
+  style.show_title = EntryAt(block, "/show_title") != false;
+  style.continued = context.layout.Translate("continued");
+  style.translate = [&](const std::string& name) { return context.layout.Translate(name); };
+  for (const Json& name : ListAt(block, "/mono")) style.mono.push_back(name.get<std::string>());
+  DrawTable(context.flow, table, style);
+  return {};
+}
+
+void DrawCaption(const ReportContext& context, const Json& block) {
+  context.flow.Advance(4);
+  if (block.contains("caption"))
+    context.flow.Paragraph(context.flow.look().Note(), context.Fill(block, "caption"));
+  context.flow.Advance(10);
+}
+
+double CaptionHeight_pt(const ReportContext& context, const Json& block) {
+  const TextStyle note = context.flow.look().Note();
+  return 14 +
+         context.flow.TextHeight_pt(note, context.flow.width_pt(), context.Fill(block, "caption"));
+}
+
+Status DrawChartBlock(const ReportContext& context, const Json& block) {
+  PageFlow& flow = context.flow;
+  const Json& names = ListAt(block, "/charts");
+  const double height_pt = *NumberAt(block, "/height_mm") * kPointsPerMm;
+  flow.Require(height_pt + CaptionHeight_pt(context, block));
+  const double gap_pt = 10, count = static_cast<double>(names.size());
+  const double width_pt = (flow.width_pt() - gap_pt * (count - 1)) / count;
+  double left_pt = flow.left_pt();
+  for (const Json& name : names) {
+    TELESTRAIN_RETURN_IF_ERROR(DrawChart(context, name.get<std::string>(),
+                                         {left_pt, flow.y_pt() - height_pt, width_pt, height_pt}));
+    left_pt += width_pt + gap_pt;
+  }
+  flow.Advance(height_pt);
+  DrawCaption(context, block);
+  return {};
+}
+
+Status DrawPicture(const ReportContext& context, const Json& block) {
+  PageFlow& flow = context.flow;
+  const auto path = context.folder / "pictures" / TextAt(block, "/file");
+  if (!std::filesystem::exists(path)) return DrawOtherwise(context, block);
+  TELESTRAIN_ASSIGN_OR_RETURN(const RgbImage image, ReadPng(path));
+  const double caption_pt = CaptionHeight_pt(context, block);
+  double width_pt = image.width_px * kPixel_pt, height_pt = image.height_px * kPixel_pt;
+  // A picture that is too large for the page keeps its shape and gets more than 300 dpi. The
+  // millipoint admits 2008 px, which is 0.01 mm more than 170 mm.
+  const double fit = std::min(
+      {1.0, (flow.width_pt() + 0.1) / width_pt, (flow.PageBody_pt() - caption_pt) / height_pt});
+  width_pt *= fit;
+  height_pt *= fit;
+  flow.Require(height_pt + caption_pt);
+  const double left_pt = flow.left_pt() + (flow.width_pt() - width_pt) / 2;
+  flow.pdf().DrawImage(image, {left_pt, flow.y_pt() - height_pt, width_pt, height_pt});
+  flow.Advance(height_pt);
+  DrawCaption(context, block);
+  return {};
+}
+
+Status DrawSignatures(const ReportContext& context, const Json& block) {
+  PageFlow& flow = context.flow;
+  const Json& roles = ListAt(block, "/roles");
+  const double gap_pt = 10, height_pt = 84, count = static_cast<double>(roles.size());
+  const double width_pt = (flow.width_pt() - gap_pt * (count - 1)) / count;
+  flow.Require(height_pt + 10);
+  const Look& look = flow.look();
+  PageBox box{flow.left_pt(), flow.y_pt() - height_pt, width_pt, height_pt};
+  for (const Json& role : roles) {
+    flow.pdf().FillBox(box, ColorOf(0xFAFBFC));
+    flow.pdf().StrokeBox(box, {look.line, 0.8});
+    flow.TextBlock({Face::kBold, 9, look.accent}, {box.left_pt + 8, box.top_pt() - 6},
+                   width_pt - 16, role.get<std::string>());
+    const double line_pt = box.bottom_pt + 24;
+    flow.pdf().DrawLine({box.left_pt + 8, line_pt}, {box.right_pt() - 8, line_pt},
+                        {look.muted, 0.5});
+    flow.TextBlock({Face::kRegular, 7.5, look.muted}, {box.left_pt + 8, line_pt - 3}, width_pt - 16,
+                   context.Fill(block, "note"));
+    box.left_pt += width_pt + gap_pt;
+  }
+  flow.Advance(height_pt + 12);
+  return {};
+}
+
+Status StartNewPage(const ReportContext& context, const Json&) {
+  context.flow.StartPageUnlessEmpty();
+  return {};
+}
+
+Status DrawEndMark(const ReportContext& context, const Json& block) {
+  PageFlow& flow = context.flow;
+  const TextStyle style = flow.look().Note();
+  flow.Require(style.LineHeight_pt() + 8);
+  flow.Advance(6);
+  flow.Advance(flow.TextBlock(style, {flow.left_pt(), flow.y_pt()}, flow.width_pt(),
+                              context.Fill(block, "text"), Align::kCenter));
+  return {};
+}
+
+bool IsWanted(const ReportContext& context, const Json& block) {
+  const auto measured = [&](const char* key) {
+    return EntryAt(context.results, "/measured/" + TextAt(block, std::string("/") + key)) == true;
+  };
+  if (block.contains("when") && !measured("when")) return false;
+  return !block.contains("unless") || !measured("unless");
+}
+
+// The longest beginning of `text` that fits, with an ellipsis when it is not all of it.
+std::string Shortened(PdfDocument& pdf, const TextStyle& style, const std::string& text,
+                      double room_pt) {
+  if (pdf.TextWidth_pt(style, text) <= room_pt) return text;
+  std::string shown;
+  for (const char32_t point : CodePoints(text)) {
+    if (pdf.TextWidth_pt(style, shown + Utf8(point) + "…") > room_pt) break;
+    shown += Utf8(point);
+  }
+  return shown + "…";
+}
+
+// Shrinks a line a little until it fits beside the other one, then shortens it: page 1 has it in
+// full.
+void DrawFrameLine(PageFlow& flow, TextStyle style, double y_pt, const std::string& text,
+                   Align align) {
+  const double room_pt = flow.width_pt() * (align == Align::kLeft ? 0.72 : 0.26);
+  while (style.size_pt > 6.5 && flow.pdf().TextWidth_pt(style, text) > room_pt)
+    style.size_pt -= 0.25;
+  const double x_pt = align == Align::kLeft ? flow.left_pt() : flow.right_pt();
+  flow.pdf().DrawText(style, {x_pt, y_pt}, Shortened(flow.pdf(), style, text, room_pt), align);
+}
+
+}  // namespace
+
+Status DrawBlock(const ReportContext& context, const std::string& pointer, const Json& block) {
+  using Draw = Status (*)(const ReportContext&, const Json&);
+  static const std::map<std::string, Draw> kDraw = {
+      {"title", DrawTitle},         {"verdict", DrawVerdict},      {"heading", DrawHeading},
+      {"text", DrawText},           {"key-values", DrawKeyValues}, {"table", DrawTableBlock},
+      {"chart", DrawChartBlock},    {"picture", DrawPicture},      {"signatures", DrawSignatures},
+      {"page-break", StartNewPage}, {"end-mark", DrawEndMark}};
+  const auto draw = kDraw.find(TextAt(block, "/type"));
+  TELESTRAIN_CHECK(draw != kDraw.end(), "a checked layout has known blocks only: " + pointer);
+  if (!IsWanted(context, block)) return {};
+  return draw->second(context, block);
+}
+
+void DrawPageFrames(const ReportContext& context) {
+  PageFlow& flow = context.flow;
+  PdfDocument& pdf = flow.pdf();
+  const Look& look = flow.look();
+  Json values = context.results;
+  values["pages"] = pdf.PageCount();
+  const double header_pt = kPageHeight_pt - 15 * kPointsPerMm, footer_pt = 13 * kPointsPerMm;
+  for (int page = 0; page < pdf.PageCount(); ++page) {
+    pdf.SelectPage(page);
+    values["page"] = page + 1;
+    const auto text = [&](const char* key) {
+      return FillIn(TextAt(context.layout.json(), key), values);
+    };
+    pdf.DrawLine({flow.left_pt(), footer_pt + 12}, {flow.right_pt(), footer_pt + 12},
+                 {look.line, 0.6});
+    DrawFrameLine(flow, {Face::kRegular, 7.5, look.muted}, footer_pt, text("/footer/left"),
+                  Align::kLeft);
+    DrawFrameLine(flow, {Face::kRegular, 7.5, look.muted}, footer_pt, text("/footer/right"),
+                  Align::kRight);
+    if (page == 0) continue;  // the title band says it larger
+    DrawFrameLine(flow, {Face::kBold, 8.5, look.accent}, header_pt, text("/header/left"),
+                  Align::kLeft);
+    DrawFrameLine(flow, {Face::kRegular, 8.5, look.muted}, header_pt, text("/header/right"),
+                  Align::kRight);
+    pdf.DrawLine({flow.left_pt(), header_pt - 6}, {flow.right_pt(), header_pt - 6},
+                 {look.accent, 0.8});
+  }
+}
+
+}  // namespace telestrain

@@ -1,0 +1,108 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "measurement/decision.h"
+#include "report/json_lookup.h"
+
+namespace telestrain {
+
+// The pieces of results.json. A cell is a text, or {value, printed} with what the PDF prints.
+
+// Printed where a value does not exist.
+inline constexpr const char* kNoValue = "–";
+
+// A number with `decimals` places, or kNoValue.
+Json FixedCell(std::optional<double> value, int decimals);
+// A number with `digits` significant digits, or kNoValue.
+Json SignificantCell(std::optional<double> value, int digits);
+// A given, not measured number: all its digits, or kNoValue.
+Json ExactCell(std::optional<double> value);
+// A whole number, or kNoValue.
+Json CountCell(std::optional<double> value);
+// "(value ± U)" rounded after the GUM, or `fallback` when there is no uncertainty.
+Json UncertainCell(double value, std::optional<double> expanded_uncertainty, const Json& fallback);
+// The value and its U as two cells, rounded together after the GUM; without an uncertainty the
+// value has `decimals` places and the second cell is kNoValue.
+struct ResultCellPair {
+  Json value;
+  Json uncertainty;
+};
+ResultCellPair ResultCells(std::optional<double> value, std::optional<double> expanded_uncertainty,
+                           int decimals);
+// {verdict, printed "✓ pass"}; kNoValue for undecided.
+Json VerdictCell(Verdict verdict);
+
+struct ResultColumn {
+  std::string name;
+  std::string unit;
+};
+
+// A table under construction.
+class ResultTable {
+ public:
+  ResultTable(std::string id, std::string title, std::vector<ResultColumn> columns);
+  void AddRow(std::vector<Json> cells);  // as many as there are columns
+  // For tables of the form name, value, unit.
+  void AddFact(const std::string& name, Json value, const std::string& unit = "");
+  bool empty() const { return json_["rows"].empty(); }
+  Json TakeJson() { return std::move(json_); }
+
+ private:
+  Json json_;
+};
+
+// A table with the columns of AddFact.
+ResultTable FactTable(std::string id, std::string title);
+
+// One scalar result. Empty limit: nothing to decide. Empty verdict: not decided.
+struct Quantity {
+  std::string id;
+  std::string section;
+  std::string label;
+  std::string unit;
+  std::optional<double> value;
+  std::optional<double> expanded_uncertainty;
+  // The quantity is one that must come with an uncertainty: without it nothing is decided. False
+  // for those that have none by their nature (an RMS of residuals), which are compared directly.
+  bool has_uncertainty = false;
+  std::optional<double> limit;
+  std::string limit_kind = "max_abs";  // or "max" for a quantity that cannot be negative
+  std::optional<Verdict> verdict;
+  int decimals = 3;        // when there is no uncertainty
+  bool in_summary = true;  // a row of the report's first table
+};
+
+// What the session wants decided, and how.
+struct Acceptance {
+  std::optional<double> reprojection_rms_px;
+  std::optional<double> ruler_mpe_um;
+  std::optional<double> strain_error_microstrain;
+  double coverage_factor = 2;
+  DecisionRule rule = DecisionRule::kGuarded;
+
+  std::optional<double> Expanded(std::optional<double> standard_uncertainty) const;
+  // The verdict of a quantity whose limit, value and, if it has one, uncertainty are there;
+  // nothing otherwise.
+  std::optional<Verdict> DecideQuantity(const Quantity& quantity) const;
+};
+
+// results.json under construction: every section adds its part.
+struct ResultsDraft {
+  Acceptance acceptance;
+  std::vector<Quantity> quantities;
+  Json tables = Json::array();
+  Json measured = Json::object();  // section -> bool
+
+  void AddTable(ResultTable table) { tables.push_back(table.TakeJson()); }
+  // Decides the quantity by its limit if it has no verdict yet.
+  void AddQuantity(Quantity quantity);
+};
+
+// The quantity as it stands in results.json.
+Json QuantityJson(const Quantity& quantity, double coverage_factor);
+
+}  // namespace telestrain

@@ -1,0 +1,108 @@
+#include <cctype>
+#include <set>
+
+#include "report/results_parts.h"
+
+namespace telestrain {
+namespace {
+
+// "report_number" -> "Report number".
+std::string KeyAsLabel(std::string key) {
+  for (char& c : key)
+    if (c == '_') c = ' ';
+  if (!key.empty()) key[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(key[0])));
+  return key;
+}
+
+// Shown in the title band, so not repeated below it.
+bool StandsInTitle(const std::string& key) {
+  static const std::set<std::string> kKeys = {"title", "number", "report_number", "revision"};
+  return kKeys.count(key) > 0;
+}
+
+void AddDocument(const Json& inputs, ResultsDraft& draft) {
+  ResultTable table = FactTable("document", "Document");
+  const Json& document = EntryAt(inputs, "/document");
+  if (document.is_object())
+    for (const auto& [key, value] : document.items())
+      if (!StandsInTitle(key))
+        table.AddFact(KeyAsLabel(key), value.is_string() ? value : Json(value.dump()));
+  draft.AddTable(std::move(table));
+}
+
+void AddArtefacts(const Json& inputs, ResultsDraft& draft) {
+  ResultTable table = FactTable("artefacts", "Instrument and artefacts");
+  const auto number = [&](const char* name, const char* pointer, const char* unit) {
+    if (const auto value = NumberAt(inputs, pointer)) table.AddFact(name, ExactCell(value), unit);
+  };
+  const auto count = [&](const char* name, const char* pointer, const char* unit) {
+    if (const auto value = NumberAt(inputs, pointer)) table.AddFact(name, CountCell(value), unit);
+  };
+  // Zero in inputs.json means that the session does not say it.
+  const auto given = [&](const char* name, const char* pointer, const char* unit) {
+    if (NumberAt(inputs, pointer).value_or(0) > 0) number(name, pointer, unit);
+  };
+  count("Sensor width", "/sensor/width_px", "px");
+  count("Sensor height", "/sensor/height_px", "px");
+  number("Pixel pitch", "/sensor/pixel_pitch_um", "µm");
+  number("Nominal magnification", "/lens/magnification", "");
+  number("Depth of field", "/lens/depth_of_field_mm", "mm");
+  count("Board corners along x", "/target/columns", "");
+  count("Board corners along y", "/target/rows", "");
+  number("Board square", "/target/square_mm", "mm");
+  given("Corner position on the board, standard uncertainty", "/target/sigma_square_um", "µm");
+  given("Board separation, standard uncertainty", "/target/sigma_separation_um", "µm");
+  given("Board coplanarity, half-width", "/target/coplanarity_um", "µm");
+  given("Ruler length", "/ruler/length_mm", "mm");
+  given("Ruler length, standard uncertainty", "/ruler/sigma_length_um", "µm");
+  given("Pipe outer diameter, nominal", "/pipe/outer_diameter_mm", "mm");
+  given("Pipe Poisson ratio", "/pipe/poisson_ratio", "");
+  if (const std::string material = TextAt(inputs, "/pipe/material"); !material.empty())
+    table.AddFact("Pipe material", material);
+  count("Calibration images", "/counts/calibration_images", "");
+  count("Ruler images", "/counts/ruler_images", "");
+  count("Pipe images", "/counts/pipe_images", "");
+  draft.AddTable(std::move(table));
+}
+
+void AddSoftware(const Json& inputs, ResultsDraft& draft) {
+  ResultTable table("software", "Software", {{"Component", ""}, {"Version", ""}});
+  table.AddRow({TextAt(inputs, "/program/name", "telestrain"),
+                TextAt(inputs, "/program/version", kNoValue)});
+  const Json& libraries = EntryAt(inputs, "/program/libraries");
+  if (libraries.is_object())
+    for (const auto& [name, version] : libraries.items())
+      table.AddRow({name, version.is_string() ? version : Json(version.dump())});
+  draft.AddTable(std::move(table));
+}
+
+void AddFiles(const Json& inputs, ResultsDraft& draft) {
+  ResultTable table("input-files", "Input files",
+                    {{"File", ""}, {"Size", "bytes"}, {"SHA-256", ""}});
+  for (const Json& file : ListAt(inputs, "/files"))
+    table.AddRow({TextAt(file, "/path", kNoValue), CountCell(NumberAt(file, "/bytes")),
+                  TextAt(file, "/sha256", kNoValue)});
+  draft.AddTable(std::move(table));
+}
+
+}  // namespace
+
+void AddInputs(const Json& inputs, ResultsDraft& draft) {
+  AddDocument(inputs, draft);
+  AddArtefacts(inputs, draft);
+  AddSoftware(inputs, draft);
+  AddFiles(inputs, draft);
+}
+
+Acceptance ReadAcceptance(const Json& inputs) {
+  Acceptance acceptance;
+  acceptance.reprojection_rms_px = NumberAt(inputs, "/acceptance/reprojection_rms_px");
+  acceptance.ruler_mpe_um = NumberAt(inputs, "/acceptance/ruler_mpe_um");
+  acceptance.strain_error_microstrain = NumberAt(inputs, "/acceptance/strain_error_microstrain");
+  acceptance.coverage_factor = NumberAt(inputs, "/acceptance/coverage_factor").value_or(2);
+  const bool simple = TextAt(inputs, "/acceptance/decision_rule") == "simple";
+  acceptance.rule = simple ? DecisionRule::kSimple : DecisionRule::kGuarded;
+  return acceptance;
+}
+
+}  // namespace telestrain

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "report/result_cells.h"
+
+namespace telestrain {
+
+// The sections of results.json, one function per input file. Each adds its tables and quantities
+// and says in `draft.measured` whether its section was measured; a null `json` means that the file
+// does not exist. Pure functions of their arguments.
+
+// Customer lines, counts, software, files of inputs.json.
+void AddInputs(const Json& inputs, ResultsDraft& draft);
+// Lens, views, reprojection, poses, boards found and rejected, stage, models, gauge.
+void AddCalibration(const Json& calibration, const Json& detection, ResultsDraft& draft);
+// Length errors with their verdicts, summary and budget.
+void AddRuler(const Json& ruler, ResultsDraft& draft);
+// States, comparison with the gauges, pipe, budget, correlation settings.
+void AddStrain(const Json& strain, const Json& calibration, ResultsDraft& draft);
+
+// The limits and the rule of inputs.json.
+Acceptance ReadAcceptance(const Json& inputs);
+
+}  // namespace telestrain

@@ -1,0 +1,35 @@
+#include "pdf_tools.h"
+
+#include <array>
+#include <cctype>
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+
+namespace telestrain {
+
+ToolRun RunTool(const std::string& command_line) {
+  ToolRun run;
+  std::FILE* pipe = ::popen((command_line + " 2>&1").c_str(), "r");
+  if (!pipe) return run;
+  std::array<char, 4096> buffer;
+  std::size_t size = 0;
+  while ((size = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0)
+    run.output.append(buffer.data(), size);
+  run.ok = ::pclose(pipe) == 0;
+  return run;
+}
+
+std::string WithoutSpace(const std::string& text) {
+  std::string rest;
+  for (const char c : text)
+    if (!std::isspace(static_cast<unsigned char>(c))) rest.push_back(c);
+  return rest;
+}
+
+std::string FileBytes(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+}  // namespace telestrain

@@ -1,0 +1,110 @@
+#include "viz/render.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <sstream>
+#include <thread>
+
+#include "base/files.h"
+#include "visual/results_fixture.h"
+
+namespace telestrain {
+namespace {
+
+using visual_test::FreshFolder;
+using visual_test::WriteResults;
+
+// Small pictures: the same drawing code in a quarter of the time.
+constexpr RenderOptions kSmall{1200, 740};
+
+Status Render(const std::filesystem::path& folder, const RenderOptions& options = kSmall) {
+  std::ostringstream out, err;
+  Console console(out, err, false);
+  return RenderResults(folder, options, console);
+}
+
+std::string Bytes(const std::filesystem::path& path) {
+  const auto bytes = ReadFile(path);
+  EXPECT_TRUE(bytes.ok()) << path;
+  return bytes.ok() ? *bytes : std::string();
+}
+
+unsigned BigEndianAt(const std::string& bytes, std::size_t at) {
+  unsigned value = 0;
+  for (std::size_t i = 0; i < 4; ++i)
+    value = value << 8 | static_cast<unsigned char>(bytes.at(at + i));
+  return value;
+}
+
+TEST(RenderResults, WritesPicturesOfPrintSizeWithoutADisplay) {
+  unsetenv("DISPLAY");
+  const auto folder = FreshFolder("PrintSize");
+  WriteResults(folder);
+  const Status status = Render(folder, {});
+  ASSERT_TRUE(status.ok()) << status.error().message;
+  for (const char* name : {"array.png", "targets.png", "pipe_strain.png"}) {
+    const std::string png = Bytes(folder / "pictures" / name);
+    EXPECT_EQ(png.substr(0, 8), "\x89PNG\r\n\x1a\n");
+    EXPECT_EQ(BigEndianAt(png, 16), 2008U);
+    EXPECT_EQ(BigEndianAt(png, 20), 1240U);
+    // pHYs follows IHDR: 300 dpi are 11811 px/m, unit 1; CRC of these 13 bytes by zlib.
+    EXPECT_EQ(png.substr(37, 4), "pHYs") << name;
+    EXPECT_EQ(BigEndianAt(png, 41), 11811U);
+    EXPECT_EQ(BigEndianAt(png, 45), 11811U);
+    EXPECT_EQ(png.at(49), 1);
+    EXPECT_EQ(BigEndianAt(png, 50), 0x78a53f76U);
+  }
+}
+
+TEST(RenderResults, GivesTheSameBytesAgainAndInAnotherThread) {
+  const auto first = FreshFolder("SameBytes1"), second = FreshFolder("SameBytes2");
+  WriteResults(first);
+  WriteResults(second);
+  ASSERT_TRUE(Render(first).ok());
+  std::thread([&] { EXPECT_TRUE(Render(second).ok()); }).join();
+  for (const char* name : {"array.png", "targets.png", "pipe_strain.png"})
+    EXPECT_TRUE(Bytes(first / "pictures" / name) == Bytes(second / "pictures" / name)) << name;
+}
+
+TEST(RenderResults, WritesNothingButThePictures) {
+  const auto folder = FreshFolder("NothingElse");
+  const auto home = FreshFolder("NothingElseHome");
+  setenv("HOME", home.c_str(), 1);
+  setenv("XDG_CACHE_HOME", home.c_str(), 1);
+  WriteResults(folder, {.ruler = false, .pipe = false});
+  ASSERT_TRUE(Render(folder).ok());
+  EXPECT_TRUE(std::filesystem::is_empty(home));
+  EXPECT_TRUE(std::filesystem::exists(folder / "pictures/array.png"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "pictures/pipe_strain.png"));
+}
+
+TEST(RenderResults, NamesTheMissingCalibrationAndItsCommand) {
+  const Status status = Render(FreshFolder("NoCalibration"));
+  ASSERT_FALSE(status.ok());
+  EXPECT_EQ(status.error().kind, ErrorKind::kBadInput);
+  EXPECT_NE(status.error().message.find("calibration.json"), std::string::npos);
+  EXPECT_NE(status.error().message.find("telestrain calibrate"), std::string::npos);
+}
+
+TEST(RenderResults, NamesTheOptionOutOfRange) {
+  const auto folder = FreshFolder("OptionRange");
+  for (const RenderOptions& options : {RenderOptions{10, 10}, RenderOptions{2008, 5000}}) {
+    const Status status = Render(folder, options);
+    ASSERT_FALSE(status.ok());
+    EXPECT_EQ(status.error().kind, ErrorKind::kBadInput);
+    EXPECT_NE(status.error().message.find("_px"), std::string::npos);
+  }
+}
+
+TEST(RenderResults, FailsAsOutputWhenThePicturesCannotBeWritten) {
+  const auto folder = FreshFolder("NoRoom");
+  WriteResults(folder, {.ruler = false, .pipe = false});
+  ASSERT_TRUE(WriteFileAtomically(folder / "pictures", "a file in the way").ok());
+  const Status status = Render(folder);
+  ASSERT_FALSE(status.ok());
+  EXPECT_EQ(status.error().kind, ErrorKind::kOutputFailed);
+}
+
+}  // namespace
+}  // namespace telestrain

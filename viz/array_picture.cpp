@@ -1,0 +1,138 @@
+#include <Eigen/Geometry>
+#include <algorithm>
+
+#include "base/numbers.h"
+#include "viz/actors.h"
+#include "viz/color_bar.h"
+#include "viz/legend.h"
+
+namespace telestrain::viz {
+namespace {
+
+constexpr ViewDirection kDirection{26, 13};
+constexpr double kFooter_pt = 48;
+constexpr double kMargin_pt = 6;
+
+std::vector<Eigen::Vector3d> ExtentOf(const Scene& scene) {
+  std::vector<Eigen::Vector3d> points;
+  for (const ViewVolume& view : scene.views)
+    for (const double along_mm : {-StretchOf(scene), 0.5 * view.depth_of_field_mm})
+      for (const Eigen::Vector3d& corner : view.Section(along_mm)) points.push_back(corner);
+  for (const Board& board : scene.boards)
+    points.insert(points.end(), board.outline_in_array_mm.begin(), board.outline_in_array_mm.end());
+  if (!scene.pipe) return points;
+  const auto outline = OutlineOfPipe(*scene.pipe, DrawnSpanOf(*scene.pipe));
+  points.insert(points.end(), outline.begin(), outline.end());
+  return points;
+}
+
+// In front of everything and below it, where nothing hides it.
+ScaleBar ScaleBarFor(const std::vector<Eigen::Vector3d>& extent, const SceneAxes& axes) {
+  Eigen::Matrix3d from_array;
+  from_array << axes.along.transpose(), axes.across.transpose(), axes.up.transpose();
+  Eigen::AlignedBox3d bounds;
+  for (const Eigen::Vector3d& point : extent) bounds.extend(Eigen::Vector3d(from_array * point));
+  const Eigen::Vector3d start(bounds.min().x(), 0.6 * bounds.min().y(), bounds.min().z());
+  return {from_array.transpose() * start, axes.along, RoundLength(0.3 * bounds.sizes().x())};
+}
+
+std::vector<LegendEntry> LegendOf(const Scene& scene) {
+  using Sign = LegendEntry::Sign;
+  std::vector<LegendEntry> entries;
+  std::vector<std::string> groups = scene.Groups();
+  for (const std::string& group : groups) {
+    std::string names;
+    int count = 0;
+    for (const ViewVolume& view : scene.views)
+      if (view.group == group) names += (count++ == 0 ? "" : ", ") + view.name;
+    constexpr int kMostNamed = 3;
+    const std::string members = count > kMostNamed ? CountOf(count, "view") : "views " + names;
+    entries.push_back({Sign::kBox, ColorOfGroup(scene, group), 0.3,
+                       "group " + Shortened(group) + ": " + Shortened(members)});
+  }
+  const std::string depth_mm = FormatFixed(scene.views.front().depth_of_field_mm, 1);
+  entries.push_back({Sign::kNone, {}, 1, "dark: depth of field " + depth_mm + " mm"});
+  entries.push_back({Sign::kLine, kImageXColor, 1, "pixel axis u"});
+  entries.push_back({Sign::kLine, kImageYColor, 1, "pixel axis v"});
+  entries.push_back({Sign::kFrame, ColorMap::Plasma(0, 1).At(0.4), 1,
+                     CountOf(static_cast<int>(scene.boards.size()), "board") + " in " +
+                         CountOf(scene.target_poses, "pose")});
+  if (scene.pipe)
+    entries.push_back({Sign::kBox, kPipeColor, 0.3,
+                       "pipe, fitted \u00d8 " + FormatFixed(2 * scene.pipe->radius_mm, 3) + " mm"});
+  else
+    entries.push_back({Sign::kNone, {}, 1, "no pipe measured"});
+  return entries;
+}
+
+void AddBodies(Canvas* canvas, const Scene& scene, vtkRenderer* renderer) {
+  const double point_px = canvas->Px(1);
+  for (std::size_t i = 0; i < scene.views.size(); ++i) {
+    AddViewVolume(renderer, scene, i, point_px);
+    Label name;
+    name.text = Shortened(scene.views[i].name);
+    name.anchor_in_array_mm = TopOf(scene, scene.views[i]);
+    name.style = {9, true, ColorOfGroup(scene, scene.views[i].group)};
+    canvas->AddLabel("array", name);
+  }
+  const ColorScale scale = ResidualScale(scene.boards);
+  const ColorMap colors = ColorMap::Plasma(scale.low, scale.high);
+  for (const Board& board : scene.boards) AddBoard(renderer, board, colors, point_px);
+  if (scene.pipe) {
+    const ColorScale strain = StrainScale(scene.pipe->surface);
+    AddNominalPipe(renderer, *scene.pipe, DrawnSpanOf(*scene.pipe), point_px);
+    AddStrainSurface(renderer, scene.pipe->surface, ColorMap::Viridis(strain.low, strain.high));
+  }
+}
+
+Status AddFooter(Canvas* canvas, const Scene& scene) {
+  const double margin = canvas->Px(kMargin_pt), height = canvas->Px(kFooter_pt);
+  const double triad_px = canvas->Px(48), bar_px = canvas->Px(112);
+  const double bar_left = canvas->Width() - bar_px - canvas->Px(14);
+  AddTriad(canvas, AxesOf(scene), kDirection, {margin, margin, triad_px, height - margin});
+  const double legend_left = margin + triad_px + canvas->Px(4);
+  const double legend_px = bar_left - legend_left - canvas->Px(6);
+  std::optional<ColorMap> strain_colors;
+  std::vector<LegendEntry> entries = LegendOf(scene);
+  if (scene.pipe) {
+    const ColorScale scale = StrainScale(scene.pipe->surface);
+    strain_colors = ColorMap::Viridis(scale.low, scale.high);
+    entries.push_back({LegendEntry::Sign::kColors,
+                       {},
+                       1,
+                       "axial strain " + NumberText(scale.low, scale.decimals) + " to " +
+                           NumberText(scale.high, scale.decimals) + " \u00b5\u03b5",
+                       &*strain_colors});
+  }
+  TELESTRAIN_RETURN_IF_ERROR(
+      AddLegend(canvas, entries, {legend_left, margin, legend_px, height - margin}));
+  const ColorScale residual = ResidualScale(scene.boards);
+  AddColorBar(canvas, ColorMap::Plasma(residual.low, residual.high), residual,
+              "board residual RMS / px", {bar_left, 0, bar_px, height});
+  return {};
+}
+
+}  // namespace
+
+Result<Picture> DrawArray(const Scene& scene, const RenderOptions& options) {
+  TELESTRAIN_ASSIGN_OR_RETURN(const auto canvas, Canvas::Create(options));
+  const double top =
+      AddTitle(canvas.get(), "Telecentric view array",
+               "virtual views through the mirrors, parallel rays; magnification " +
+                   FormatFixed(scene.magnification_px_per_mm, 3) + " px/mm, reprojection RMS " +
+                   FormatFixed(scene.reprojection_rms_px, 4) + " px");
+  const double footer = canvas->Px(kFooter_pt + kMargin_pt);
+  const PixelBox box{0, footer, canvas->Width(), top - footer};
+  const SceneAxes axes = AxesOf(scene);
+  std::vector<Eigen::Vector3d> extent = ExtentOf(scene);
+  const ScaleBar bar = ScaleBarFor(extent, axes);
+  extent.push_back(bar.start_in_array_mm);
+  vtkRenderer* renderer =
+      canvas->AddPanel("array", box, FitCamera(extent, axes, kDirection, box, canvas->Px(13)));
+  AddBodies(canvas.get(), scene, renderer);
+  AddScaleBar(canvas.get(), "array", renderer, bar);
+  TELESTRAIN_RETURN_IF_ERROR(AddFooter(canvas.get(), scene));
+  return canvas->Finish();
+}
+
+}  // namespace telestrain::viz

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "viz/camera.h"
+#include "viz/color_map.h"
+#include "viz/render.h"
+#include "viz/scene.h"
+
+namespace telestrain::viz {
+
+// Three bytes per pixel, top row first.
+struct RgbImage {
+  int width_px = 0, height_px = 0;
+  int dots_per_inch = 300;
+  std::vector<std::uint8_t> rgb;
+};
+
+// A part of a picture with a camera of its own, as it was used.
+struct Panel {
+  std::string name;
+  // pixel = matrix [P; 1]; pixel (0,0) is the centre of the top left pixel of the picture.
+  Eigen::Matrix<double, 2, 4> pixel_from_array;
+  Eigen::Vector2d PixelOf(const Eigen::Vector3d& point_in_array_mm) const {
+    return pixel_from_array.leftCols<3>() * point_in_array_mm + pixel_from_array.col(3);
+  }
+};
+
+// A text as it was drawn.
+struct PlacedText {
+  std::string text;
+  double size_pt = 0;
+  PixelBox box;  // origin in the lower left corner of the picture
+};
+
+struct Picture {
+  RgbImage image;
+  std::vector<Panel> panels;
+  std::vector<PlacedText> texts;
+};
+
+// The standard pictures. Fail (kOutputFailed) when rendering does. The same scene gives the same
+// pixels on one kind of CPU. One to two seconds of computing each at 300 dpi.
+Result<Picture> DrawArray(const Scene& scene, const RenderOptions& options);
+Result<Picture> DrawTargets(const Scene& scene, const RenderOptions& options);
+// Needs scene.pipe.
+Result<Picture> DrawPipeStrain(const Scene& scene, const RenderOptions& options);
+
+// The colours that the pictures use, for whoever compares.
+ColorScale StrainScale(const Surface& surface);
+ColorScale ResidualScale(const std::vector<Board>& boards);
+
+}  // namespace telestrain::viz
