@@ -1,0 +1,35 @@
+#include "app/command.h"
+#include "app/steps.h"
+
+// clang-format off
+// telestrain calibrate SESSION --out RESULTS
+//   calibrate  magnification 227.3823 px/mm, distortion k1 p1 p2, reprojection RMS 0.0022 px over 10881 corners
+// clang-format on
+
+namespace telestrain {
+namespace {
+
+class CalibrateCommand : public Command {
+ public:
+  std::string Name() const override { return "calibrate"; }
+  std::string Summary() const override {
+    return "calibrate lens and views from the detected corners";
+  }
+  std::string Example() const override { return "telestrain calibrate session --out results"; }
+  void AddOptions(CLI::App& app) override { arguments_.AddTo(app); }
+  Result<int> Run(Console& console) override {
+    TELESTRAIN_ASSIGN_OR_RETURN(const Session session,
+                                ReopenSession(arguments_.session, arguments_.out));
+    TELESTRAIN_RETURN_IF_ERROR(CalibrateStep(session, arguments_.out, console));
+    return 0;
+  }
+
+ private:
+  SessionArguments arguments_;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> MakeCalibrateCommand() { return std::make_unique<CalibrateCommand>(); }
+
+}  // namespace telestrain

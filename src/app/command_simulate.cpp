@@ -1,0 +1,65 @@
+#include <CLI/CLI.hpp>
+
+#include "app/command.h"
+#include "base/numbers.h"
+#include "simulation/virtual_experiment.h"
+
+// telestrain simulate --out SESSION
+//   simulate   24 board, 12 ruler and 6 pipe images in session
+//   truth      session-truth.json
+
+namespace telestrain {
+namespace {
+
+class SimulateCommand : public Command {
+ public:
+  std::string Name() const override { return "simulate"; }
+  std::string Summary() const override {
+    return "write a session folder as a virtual instrument would record it, and its truth beside "
+           "it";
+  }
+  std::string Example() const override {
+    return "telestrain simulate --out session --seed 7 --noise-gray 1.5";
+  }
+  void AddOptions(CLI::App& app) override {
+    app.add_option("--out", out_, "session folder to write; must not hold a session yet")
+        ->required();
+    app.add_option("--truth", truth_, "file for the truth [--out with -truth.json]");
+    for (const VirtualExperimentOptionInfo& info : VirtualExperimentOptionTable())
+      std::visit([&](auto member) { AddOption(app, info, options_.*member); }, info.member);
+  }
+  Result<int> Run(Console& console) override {
+    std::filesystem::path folder = std::filesystem::path(out_).lexically_normal();
+    if (!folder.has_filename()) folder = folder.parent_path();
+    const std::filesystem::path truth = truth_.empty()
+                                            ? std::filesystem::path(folder.string() + "-truth.json")
+                                            : std::filesystem::path(truth_);
+    TELESTRAIN_RETURN_IF_ERROR(WriteVirtualExperiment(options_, folder, truth, console));
+    console.Say("simulate   " + std::to_string(2 * options_.poses) + " board, " +
+                std::to_string(options_.ruler_images) + " ruler and " +
+                std::to_string(options_.pipe_states) + " pipe images in " + folder.string());
+    console.Say("truth      " + truth.string());
+    return 0;
+  }
+
+ private:
+  template <typename T>
+  static void AddOption(CLI::App& app, const VirtualExperimentOptionInfo& info, T& value) {
+    std::string flag = std::string("--") + info.name;
+    std::replace(flag.begin(), flag.end(), '_', '-');
+    std::string help = info.help;
+    if constexpr (!std::is_same_v<T, bool>)
+      help += std::string(" (") + info.unit + (*info.unit != '\0' ? ", " : "") +
+              FormatShortest(info.minimum) + " to " + FormatShortest(info.maximum) + ")";
+    app.add_option(flag, value, help)->capture_default_str();
+  }
+
+  VirtualExperimentOptions options_;
+  std::string out_, truth_;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> MakeSimulateCommand() { return std::make_unique<SimulateCommand>(); }
+
+}  // namespace telestrain

@@ -1,0 +1,101 @@
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <exception>
+#include <iostream>
+
+#include "app/command.h"
+#include "base/numbers.h"
+
+namespace telestrain {
+
+void SessionArguments::AddTo(CLI::App& app) {
+  app.add_option("SESSION", session, "session folder with session.toml, tables and images")
+      ->required();
+  app.add_option("--out", out, "results folder; made when it does not exist")->required();
+}
+
+namespace {
+
+constexpr int kUsageExit = 2;
+constexpr int kDefectExit = 70;
+
+constexpr const char* kFooter =
+    "Exit codes: 0 accepted, 1 measured but not accepted, 2 wrong usage, 3 bad input data,\n"
+    "4 estimation failed, 5 rendering or report failed, 70 a defect of the program.\n"
+    "Help for one verb: telestrain VERB --help";
+
+std::vector<std::unique_ptr<Command>> AllCommands() {
+  std::vector<std::unique_ptr<Command>> commands;
+  commands.push_back(MakeRunCommand());
+  commands.push_back(MakeDetectCommand());
+  commands.push_back(MakeCalibrateCommand());
+  commands.push_back(MakeVerifyCommand());
+  commands.push_back(MakeMeasureCommand());
+  commands.push_back(MakeRenderCommand());
+  commands.push_back(MakeReportCommand());
+  commands.push_back(MakeSimulateCommand());
+  return commands;
+}
+
+int RunCommand(Command& command, Console& console) {
+  const Result<int> result = command.Run(console);
+  if (result) return *result;
+  console.Note("telestrain " + command.Name() + ": " + result.error().message);
+  return static_cast<int>(result.error().kind);
+}
+
+// The complaint about a first argument that is neither an option nor a verb; else empty.
+std::string UnknownVerb(int argc, char** argv,
+                        const std::vector<std::unique_ptr<Command>>& commands) {
+  const std::string word = argc > 1 ? argv[1] : "";
+  if (word.empty() || word.front() == '-') return "";
+  std::vector<std::string> verbs;
+  for (const auto& command : commands) verbs.push_back(command->Name());
+  if (std::find(verbs.begin(), verbs.end(), word) != verbs.end()) return "";
+  return "telestrain: unknown verb '" + word + "'; the nearest verb is '" +
+         NearestWord(word, verbs) + "'\nRun with --help for all verbs.";
+}
+
+int Main(int argc, char** argv) {
+  CLI::App app{
+      "telestrain calibrates a telecentric four-view camera array, proves it on a ruler, measures\n"
+      "the strain of a pipe with it and writes the PDF acceptance report."};
+  app.name("telestrain");
+  app.set_version_flag("--version", "telestrain " TELESTRAIN_VERSION);
+  app.require_subcommand(1);
+  app.footer(kFooter);
+  auto commands = AllCommands();
+  for (const auto& command : commands) {
+    CLI::App* verb = app.add_subcommand(command->Name(), command->Summary());
+    verb->footer("Example: " + command->Example());
+    command->AddOptions(*verb);
+  }
+  if (const std::string complaint = UnknownVerb(argc, argv, commands); !complaint.empty()) {
+    std::cerr << complaint << '\n';
+    return kUsageExit;
+  }
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    return app.exit(e) == 0 ? 0 : kUsageExit;
+  }
+  Console console(std::cout, std::cerr, ::isatty(STDERR_FILENO) != 0);
+  for (const auto& command : commands)
+    if (app.got_subcommand(command->Name())) return RunCommand(*command, console);
+  return kUsageExit;
+}
+
+}  // namespace
+}  // namespace telestrain
+
+int main(int argc, char** argv) {
+  try {
+    return telestrain::Main(argc, argv);
+  } catch (const std::exception& e) {
+    std::cerr << "telestrain: a defect of the program: " << e.what()
+              << "\nPlease report it with the command line and the session.\n";
+    return telestrain::kDefectExit;
+  }
+}

@@ -1,0 +1,227 @@
+#include "app/results_folder.h"
+
+#include <nlohmann/json.hpp>
+#include <system_error>
+#include <tuple>
+
+#include "base/files.h"
+#include "base/json_file.h"
+#include "target/image_file.h"
+
+namespace telestrain {
+namespace {
+
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+constexpr const char* kInputsSchema = "telestrain.inputs/1";
+
+const std::vector<std::string>& OutputsOf(Step step) {
+  static const std::map<Step, std::vector<std::string>> kOutputs{
+      {Step::kDetect, {"corners.vnl", "corner_covariances.csv", "detection.json"}},
+      {Step::kCalibrate, {"calibration.json", "residuals.csv"}},
+      {Step::kVerify, {"ruler.csv", "ruler.json"}},
+      {Step::kMeasure, {"strain.csv", "strain.json"}},
+      {Step::kRender, {"pictures/array.png", "pictures/targets.png", "pictures/pipe_strain.png"}},
+      {Step::kReport, {"results.json", "report.pdf"}}};
+  return kOutputs.at(step);
+}
+
+// pipe_000.vtp and so on, as MeasureStep names them.
+bool IsSurfaceName(const std::string& name) {
+  if (!name.starts_with("pipe_") || !name.ends_with(".vtp") || name.size() < 12) return false;
+  return name.find_first_not_of("0123456789", 5) == name.size() - 4;
+}
+
+Status Remove(const fs::path& path) {
+  std::error_code code;
+  fs::remove(path, code);
+  if (!code) return {};
+  return OutputFailed(path.string() + ": an old result cannot be removed: " + code.message() +
+                      "; remove it by hand or choose another --out folder");
+}
+
+Status RemoveSurfaces(const fs::path& folder) {
+  std::error_code code;
+  std::vector<fs::path> surfaces;
+  for (fs::directory_iterator entry(folder, code), end; !code && entry != end;
+       entry.increment(code))
+    if (IsSurfaceName(entry->path().filename().string())) surfaces.push_back(entry->path());
+  for (const fs::path& surface : surfaces) TELESTRAIN_RETURN_IF_ERROR(Remove(surface));
+  return {};
+}
+
+Json FileJson(const std::string& path, const std::string& bytes) {
+  return {{"path", path}, {"bytes", bytes.size()}, {"sha256", Sha256Hex(bytes)}};
+}
+
+std::vector<std::string> TableNames(const Session& session) {
+  std::vector<std::string> names{"session.toml", "calibration.csv"};
+  if (!session.ruler_images.empty()) names.push_back("ruler.csv");
+  if (!session.pipe_states.empty()) names.push_back("pipe.csv");
+  return names;
+}
+
+std::vector<std::string> ImageNames(const Session& session) {
+  std::vector<std::string> names;
+  for (const CalibrationImage& image : session.calibration_images) names.push_back(image.image);
+  for (const std::string& image : session.ruler_images) names.push_back(image);
+  for (const PipeState& state : session.pipe_states) names.push_back(state.image);
+  return names;
+}
+
+// Every input file with its hash; fails when an image is not one of this sensor.
+Result<Json> FilesJson(const Session& session) {
+  Json files = Json::array();
+  for (const std::string& name : TableNames(session)) {
+    TELESTRAIN_ASSIGN_OR_RETURN(const std::string bytes, ReadFile(session.folder / name));
+    files.push_back(FileJson(name, bytes));
+  }
+  for (const std::string& name : ImageNames(session)) {
+    const fs::path path = session.folder / name;
+    TELESTRAIN_ASSIGN_OR_RETURN(const std::string bytes, ReadFile(path));
+    TELESTRAIN_RETURN_IF_ERROR(
+        CheckImageBytes(path.string(), bytes, session.sensor.width_px, session.sensor.height_px));
+    files.push_back(FileJson(name, bytes));
+  }
+  return files;
+}
+
+Json TargetJson(const TargetSpec& target) {
+  Json boards = Json::array();
+  for (const SubBoard& board : target.boards) {
+    const auto& c = board.center_in_target_mm;
+    boards.push_back({{"group", board.group},
+                      {"center_in_target_mm", {c.x(), c.y(), c.z()}},
+                      {"rotation_deg", board.rotation_rad * 57.29577951308232}});
+  }
+  return {{"columns", target.columns},
+          {"rows", target.rows},
+          {"square_mm", target.square_mm},
+          {"sigma_square_um", target.sigma_square_um},
+          {"sigma_separation_um", target.sigma_separation_um},
+          {"coplanarity_um", target.coplanarity_um},
+          {"boards", boards}};
+}
+
+Json AcceptanceJson(const AcceptanceSpec& acceptance) {
+  Json json = Json::object();
+  if (acceptance.reprojection_rms_px) json["reprojection_rms_px"] = *acceptance.reprojection_rms_px;
+  if (acceptance.ruler_mpe_um) json["ruler_mpe_um"] = *acceptance.ruler_mpe_um;
+  if (acceptance.strain_error_microstrain)
+    json["strain_error_microstrain"] = *acceptance.strain_error_microstrain;
+  json["coverage_factor"] = acceptance.coverage_factor;
+  json["decision_rule"] = acceptance.decision_rule == DecisionRule::kGuarded ? "guarded" : "simple";
+  return json;
+}
+
+Json ProgramJson() {
+  Json libraries;
+  std::string list = TELESTRAIN_LIBRARIES;  // "name version|name version|…" from CMake
+  while (!list.empty()) {
+    const std::string item = list.substr(0, list.find('|'));
+    list.erase(0, item.size() + 1);
+    libraries[item.substr(0, item.find(' '))] = item.substr(item.find(' ') + 1);
+  }
+  return {{"name", "telestrain"}, {"version", TELESTRAIN_VERSION}, {"libraries", libraries}};
+}
+
+}  // namespace
+
+Status RemoveOutputsFrom(const fs::path& results, Step step) {
+  // Ruler and pipe do not depend on each other; everything else follows in order.
+  for (const Step later : {Step::kDetect, Step::kCalibrate, Step::kVerify, Step::kMeasure,
+                           Step::kRender, Step::kReport}) {
+    if (later < step || (step == Step::kVerify && later == Step::kMeasure)) continue;
+    for (const std::string& name : OutputsOf(later))
+      TELESTRAIN_RETURN_IF_ERROR(Remove(results / name));
+    if (later == Step::kMeasure) TELESTRAIN_RETURN_IF_ERROR(RemoveSurfaces(results));
+  }
+  return {};
+}
+
+Result<std::string> InputsText(const Session& session) {
+  TELESTRAIN_ASSIGN_OR_RETURN(const Json files, FilesJson(session));
+  const Json json{{"schema", kInputsSchema},
+                  {"program", ProgramJson()},
+                  {"title", session.title},
+                  {"document", session.document},
+                  {"sensor",
+                   {{"width_px", session.sensor.width_px},
+                    {"height_px", session.sensor.height_px},
+                    {"pixel_pitch_um", session.sensor.pixel_pitch_um}}},
+                  {"lens",
+                   {{"magnification", session.lens_magnification},
+                    {"depth_of_field_mm", session.depth_of_field_mm}}},
+                  {"target", TargetJson(session.target)},
+                  {"ruler",
+                   {{"length_mm", session.ruler.length_mm},
+                    {"sigma_length_um", session.ruler.sigma_length_um}}},
+                  {"pipe",
+                   {{"outer_diameter_mm", session.pipe.outer_diameter_mm},
+                    {"poisson_ratio", session.pipe.poisson_ratio},
+                    {"material", session.pipe.material}}},
+                  {"acceptance", AcceptanceJson(session.acceptance)},
+                  {"counts",
+                   {{"calibration_images", session.calibration_images.size()},
+                    {"ruler_images", session.ruler_images.size()},
+                    {"pipe_images", session.pipe_states.size()}}},
+                  {"files", files}};
+  return JsonText(json);
+}
+
+Status RequireSameInputs(const Session& session, const fs::path& results) {
+  TELESTRAIN_ASSIGN_OR_RETURN(
+      const Json inputs, ReadJson(results / "inputs.json", kInputsSchema, "telestrain detect"));
+  std::map<std::string, std::string> recorded;
+  try {
+    for (const Json& file : inputs.at("files"))
+      recorded[file.at("path").get<std::string>()] = file.at("sha256").get<std::string>();
+  } catch (const nlohmann::json::exception& e) {
+    return BadInput((results / "inputs.json").string() + ": " + e.what() +
+                    "; run 'telestrain detect' again");
+  }
+  std::vector<std::string> names = TableNames(session);
+  for (const std::string& name : ImageNames(session)) names.push_back(name);
+  for (const std::string& name : names) {
+    TELESTRAIN_ASSIGN_OR_RETURN(const std::string hash, Sha256HexOfFile(session.folder / name));
+    if (recorded[name] != hash)
+      return BadInput(results.string() + ": was made from another " + name + " than " +
+                      (session.folder / name).string() +
+                      "; run 'telestrain detect' again or use another --out folder");
+  }
+  return {};
+}
+
+Status RequireConsistent(const fs::path& results) {
+  TELESTRAIN_ASSIGN_OR_RETURN(
+      const Json inputs, ReadJson(results / "inputs.json", kInputsSchema, "telestrain detect"));
+  for (const auto& [name, schema, maker] :
+       {std::tuple{"detection.json", "telestrain.detection/1", "telestrain detect"},
+        std::tuple{"calibration.json", "telestrain.calibration/1", "telestrain calibrate"},
+        std::tuple{"ruler.json", "telestrain.ruler/1", "telestrain verify"},
+        std::tuple{"strain.json", "telestrain.strain/1", "telestrain measure"}}) {
+    std::error_code code;
+    if (!fs::exists(results / name, code)) continue;
+    TELESTRAIN_ASSIGN_OR_RETURN(const Json json, ReadJson(results / name, schema, maker));
+    const Json made_from = json.contains("made_from") ? json["made_from"] : Json::object();
+    for (const auto& [source, hash] : made_from.items()) {
+      TELESTRAIN_ASSIGN_OR_RETURN(const std::string found, Sha256HexOfFile(results / source));
+      if (hash == found) continue;
+      return BadInput((results / name).string() + ": was made from another " + source +
+                      " than the one that lies beside it; run '" + maker + "' again");
+    }
+  }
+  return {};
+}
+
+Result<std::map<std::string, std::string>> HashesOf(const fs::path& results,
+                                                    std::initializer_list<std::string> names) {
+  std::map<std::string, std::string> hashes;
+  for (const std::string& name : names) {
+    TELESTRAIN_ASSIGN_OR_RETURN(hashes[name], Sha256HexOfFile(results / name));
+  }
+  return hashes;
+}
+
+}  // namespace telestrain

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <filesystem>
+#include <initializer_list>
+#include <map>
+#include <string>
+
+#include "base/result.h"
+#include "session/session.h"
+
+namespace telestrain {
+
+// The files of a results folder, in the order in which the steps make them.
+enum class Step { kDetect, kCalibrate, kVerify, kMeasure, kRender, kReport };
+
+// Removes the files of this step and of those that depend on it.
+Status RemoveOutputsFrom(const std::filesystem::path& results, Step step);
+
+// The text of inputs.json: the session's facts, the program and the SHA-256 of every input file.
+// Fails (kBadInput) when an image is unreadable, cut short or of another size than the sensor's.
+Result<std::string> InputsText(const Session& session);
+
+// Fails (kBadInput) when inputs.json is missing or was made from another session.toml,
+// tables or images.
+Status RequireSameInputs(const Session& session, const std::filesystem::path& results);
+
+// Fails (kBadInput) when the folder is no results folder (no inputs.json), or when a result in it
+// was made from another version of a file than the one that lies there now.
+Status RequireConsistent(const std::filesystem::path& results);
+
+// SHA-256 of files of the results folder, for `made_from`.
+Result<std::map<std::string, std::string>> HashesOf(const std::filesystem::path& results,
+                                                    std::initializer_list<std::string> names);
+
+}  // namespace telestrain

@@ -1,0 +1,210 @@
+#include "app/steps.h"
+
+#include <nlohmann/json.hpp>
+
+#include "app/results_folder.h"
+#include "base/files.h"
+#include "base/json_file.h"
+#include "base/numbers.h"
+#include "calibration/calibration_file.h"
+#include "measurement/pipe_file.h"
+#include "measurement/ruler.h"
+#include "report/acceptance_report.h"
+#include "target/detection.h"
+#include "viz/render.h"
+
+namespace telestrain {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The calibration in the results folder, which must be of this session's views.
+Result<ArrayCalibration> LoadCalibration(const Session& session, const fs::path& results) {
+  TELESTRAIN_RETURN_IF_ERROR(RequireConsistent(results));
+  TELESTRAIN_ASSIGN_OR_RETURN(ArrayCalibration array,
+                              ReadArrayCalibration(results / "calibration.json"));
+  bool same = array.views.size() == session.views.size();
+  for (std::size_t i = 0; same && i < array.views.size(); ++i)
+    same = array.views[i].name == session.views[i].name;
+  if (!same)
+    return BadInput((results / "calibration.json").string() +
+                    ": has other views than the session; run 'telestrain calibrate' again");
+  return array;
+}
+
+// One line for every limit that is not met or could not be decided.
+Status SayWhy(const fs::path& results, Console& console) {
+  TELESTRAIN_ASSIGN_OR_RETURN(
+      const auto json,
+      ReadJson(results / "results.json", "telestrain.results/1", "telestrain report"));
+  try {
+    for (const auto& quantity : json.at("quantities")) {
+      const auto text = [&](const char* key) {
+        const auto at = quantity.find(key);
+        return at != quantity.end() && at->is_string() ? at->template get<std::string>()
+                                                       : std::string("-");
+      };
+      if (quantity.at("limit").is_null() || text("verdict") == "pass") continue;
+      console.Say("  " + text("label") + ": " + text("printed") + " " + text("unit") + " (U " +
+                  text("printed_uncertainty") + "), limit " + text("printed_limit") + ": " +
+                  (text("verdict") == "-" ? "not decided" : text("verdict")));
+    }
+  } catch (const nlohmann::json::exception& e) {
+    return BadInput((results / "results.json").string() + ": " + e.what());
+  }
+  return {};
+}
+
+std::string Count(std::size_t number, const std::string& noun) {
+  return std::to_string(number) + " " + noun + (number == 1 ? "" : "s");
+}
+
+}  // namespace
+
+Result<Session> OpenSession(const fs::path& folder, const fs::path& results) {
+  TELESTRAIN_ASSIGN_OR_RETURN(Session session, ReadSession(folder));
+  std::error_code code;
+  if (fs::equivalent(folder, results, code))
+    return Error{ErrorKind::kUsage,
+                 "--out is the session folder itself; name another folder, the "
+                 "recorded session stays as it is"};
+  // Bad input must be known before anything in the results folder is touched.
+  TELESTRAIN_ASSIGN_OR_RETURN(const std::string inputs, InputsText(session));
+  TELESTRAIN_RETURN_IF_ERROR(EnsureFolder(results));
+  TELESTRAIN_RETURN_IF_ERROR(RemoveOutputsFrom(results, Step::kDetect));
+  TELESTRAIN_RETURN_IF_ERROR(WriteFileAtomically(results / "inputs.json", inputs));
+  return session;
+}
+
+Result<Session> ReopenSession(const fs::path& folder, const fs::path& results) {
+  TELESTRAIN_ASSIGN_OR_RETURN(Session session, ReadSession(folder));
+  TELESTRAIN_RETURN_IF_ERROR(RequireSameInputs(session, results));
+  return session;
+}
+
+Status DetectStep(const Session& session, const fs::path& results, Console& console) {
+  TELESTRAIN_ASSIGN_OR_RETURN(const Detection detection, DetectAll(session, console));
+  TELESTRAIN_RETURN_IF_ERROR(WriteDetection(session, detection, results));
+  std::size_t found = 0, crosses = 0;
+  for (const BoardObservation& board : detection.boards) found += board.rejected_because.empty();
+  for (const CrossObservation& cross : detection.crosses) crosses += cross.center.has_value();
+  console.Say("detect     " + std::to_string(found) + " of " +
+              Count(detection.boards.size(), "board view") + " used, " + std::to_string(crosses) +
+              " of " + std::to_string(detection.crosses.size()) + " ruler crosses");
+  for (const BoardObservation& board : detection.boards)
+    if (!board.rejected_because.empty())
+      console.Note("  not used: " + board.image + " " + board.view + ": " + board.rejected_because);
+  return {};
+}
+
+Status CalibrateStep(const Session& session, const fs::path& results, Console& console) {
+  TELESTRAIN_RETURN_IF_ERROR(RequireConsistent(results));
+  TELESTRAIN_ASSIGN_OR_RETURN(const std::vector<BoardObservation> boards,
+                              ReadDetectedBoards(session, results));
+  TELESTRAIN_RETURN_IF_ERROR(RemoveOutputsFrom(results, Step::kCalibrate));
+  TELESTRAIN_ASSIGN_OR_RETURN(const Calibration calibration, Calibrate(session, boards));
+  TELESTRAIN_ASSIGN_OR_RETURN(const auto made_from,
+                              HashesOf(results, {"inputs.json", "corners.vnl", "detection.json"}));
+  TELESTRAIN_RETURN_IF_ERROR(
+      WriteFileAtomically(results / "residuals.csv", ResidualsCsv(session, calibration)));
+  TELESTRAIN_RETURN_IF_ERROR(
+      WriteJson(results / "calibration.json", CalibrationJson(session, calibration, made_from)));
+  const AmbiguityDecision& decision = calibration.seed.decision;
+  if (decision.stage_pairs == 0)
+    console.Warn(
+        "no stage move among the images: the two-fold ambiguity was decided by the nominal "
+        "views alone");
+  else if (decision.stage_agreeing < decision.stage_pairs)
+    console.Warn("only " + std::to_string(decision.stage_agreeing) + " of " +
+                 std::to_string(decision.stage_pairs) +
+                 " stage moves agree with the nominal views; check calibration.csv");
+  const ArrayCalibration& array = calibration.bundle.state.array;
+  console.Say("calibrate  magnification " + FormatFixed(array.lens.magnification_px_per_mm, 4) +
+              " px/mm, distortion " + ToText(array.model) + ", reprojection RMS " +
+              FormatFixed(calibration.all.rms_px, 4) + " px over " +
+              Count(static_cast<std::size_t>(calibration.all.corners), "corner"));
+  if (calibration.corners_rejected > 0)
+    console.Note("  " + Count(static_cast<std::size_t>(calibration.corners_rejected), "corner") +
+                 " rejected as outliers; calibration.json lists where");
+  return {};
+}
+
+Status VerifyStep(const Session& session, const fs::path& results, Console& console) {
+  TELESTRAIN_ASSIGN_OR_RETURN(const ArrayCalibration array, LoadCalibration(session, results));
+  TELESTRAIN_ASSIGN_OR_RETURN(const std::vector<CrossObservation> crosses,
+                              ReadDetectedCrosses(results));
+  TELESTRAIN_RETURN_IF_ERROR(RemoveOutputsFrom(results, Step::kVerify));
+  if (session.ruler_images.empty()) {
+    console.Say("verify     the session has no ruler images");
+    return {};
+  }
+  const std::vector<RulerLength> lengths = MeasureRuler(session, array, crosses);
+  TELESTRAIN_ASSIGN_OR_RETURN(const auto made_from,
+                              HashesOf(results, {"detection.json", "calibration.json"}));
+  TELESTRAIN_RETURN_IF_ERROR(WriteFileAtomically(results / "ruler.csv", RulerCsv(lengths)));
+  TELESTRAIN_RETURN_IF_ERROR(
+      WriteJson(results / "ruler.json", RulerJson(session, lengths, made_from)));
+  const RulerSummary summary = Summarise(lengths);
+  if (summary.count == 0) console.Warn("no ruler image could be measured");
+  console.Say("verify     " + Count(static_cast<std::size_t>(summary.count), "ruler length") +
+              ", error mean " + FormatFixed(summary.mean_error_um, 3) + " um, sd " +
+              FormatFixed(summary.sd_error_um, 3) + " um, largest " +
+              FormatFixed(summary.max_abs_error_um, 3) + " um");
+  for (const RulerLength& length : lengths)
+    if (!length.rejected_because.empty())
+      console.Note("  not used: " + length.image + ": " + length.rejected_because);
+  return {};
+}
+
+Status MeasureStep(const Session& session, const fs::path& results, Console& console) {
+  TELESTRAIN_ASSIGN_OR_RETURN(const ArrayCalibration array, LoadCalibration(session, results));
+  TELESTRAIN_RETURN_IF_ERROR(RemoveOutputsFrom(results, Step::kMeasure));
+  if (session.pipe_states.empty()) {
+    console.Say("measure    the session has no pipe images");
+    return {};
+  }
+  TELESTRAIN_ASSIGN_OR_RETURN(const PipeMeasurement measurement,
+                              MeasurePipe(session, array, DefaultPipeOptions(session), console));
+  for (std::size_t i = 0; i < measurement.states.size(); ++i)
+    TELESTRAIN_RETURN_IF_ERROR(WriteFileAtomically(
+        results / SurfaceFileName(i), SurfaceVtp(measurement.grid, measurement.states[i].strain)));
+  TELESTRAIN_ASSIGN_OR_RETURN(const auto made_from,
+                              HashesOf(results, {"inputs.json", "calibration.json"}));
+  TELESTRAIN_RETURN_IF_ERROR(WriteFileAtomically(results / "strain.csv", StrainCsv(measurement)));
+  TELESTRAIN_RETURN_IF_ERROR(
+      WriteJson(results / "strain.json", StrainJson(measurement, made_from)));
+  console.Say("measure    " + Count(measurement.states.size(), "state") + ", " +
+              Count(measurement.grid.points.size(), "surface point") + ", pipe diameter " +
+              FormatFixed(2 * measurement.grid.pipe.radius_mm, 4) + " mm");
+  for (const MeasuredState& state : measurement.states)
+    console.Note("  " + state.table.image + ": " + FormatFixed(1e6 * state.strain.axial_strain, 2) +
+                 " +- " + FormatFixed(1e6 * state.strain.standard_uncertainty, 2) +
+                 " microstrain (standard uncertainty)");
+  return {};
+}
+
+Status RenderStep(const fs::path& results, Console& console) {
+  TELESTRAIN_RETURN_IF_ERROR(RequireConsistent(results));
+  TELESTRAIN_RETURN_IF_ERROR(RemoveOutputsFrom(results, Step::kRender));
+  TELESTRAIN_RETURN_IF_ERROR(RenderResults(results, RenderOptions{}, console));
+  console.Say("render     pictures in " + (results / "pictures").string());
+  return {};
+}
+
+Result<int> ReportStep(const fs::path& results, const fs::path& templates, Console& console) {
+  TELESTRAIN_RETURN_IF_ERROR(RequireConsistent(results));
+  std::error_code code;
+  if (!fs::exists(results / "calibration.json", code))
+    return BadInput((results / "calibration.json").string() +
+                    ": does not exist; run 'telestrain calibrate' first");
+  TELESTRAIN_RETURN_IF_ERROR(RemoveOutputsFrom(results, Step::kReport));
+  TELESTRAIN_ASSIGN_OR_RETURN(const Outcome outcome, MakeResults(results));
+  TELESTRAIN_RETURN_IF_ERROR(WriteAcceptanceReport(results, {templates}));
+  console.Say("report     " +
+              fs::absolute(results / "report.pdf", code).lexically_normal().string());
+  console.Say("verdict    " + outcome.verdict);
+  TELESTRAIN_RETURN_IF_ERROR(SayWhy(results, console));
+  return outcome.accepted ? 0 : 1;
+}
+
+}  // namespace telestrain

@@ -1,0 +1,102 @@
+#include "cli/program_run.h"
+
+#include <fcntl.h>
+#include <sched.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <stdexcept>
+
+namespace telestrain::testing_support {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A file without a name that takes what a program prints.
+class Catch {
+ public:
+  Catch() : file_(std::tmpfile(), &std::fclose) {
+    if (!file_) throw std::runtime_error("no temporary file");
+  }
+  int Descriptor() const { return ::fileno(file_.get()); }
+  std::string Text() const {
+    std::rewind(file_.get());
+    std::string text;
+    for (int c = std::fgetc(file_.get()); c != EOF; c = std::fgetc(file_.get()))
+      text += static_cast<char>(c);
+    return text;
+  }
+
+ private:
+  std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
+};
+
+void UseOneProcessor() {
+  cpu_set_t allowed, one;
+  CPU_ZERO(&one);
+  ::sched_getaffinity(0, sizeof(allowed), &allowed);
+  for (int i = 0; i < CPU_SETSIZE && CPU_COUNT(&one) == 0; ++i)
+    if (CPU_ISSET(i, &allowed)) CPU_SET(i, &one);
+  ::sched_setaffinity(0, sizeof(one), &one);
+}
+
+// Becomes the program, in the child process.
+[[noreturn]] void Become(const std::vector<std::string>& words, const Surroundings& where,
+                         const Catch& out, const Catch& err) {
+  if (::chdir(where.folder.c_str()) != 0) ::_exit(126);
+  for (const auto& [name, value] : where.environment)
+    value ? ::setenv(name.c_str(), value->c_str(), 1) : ::unsetenv(name.c_str());
+  if (where.one_processor) UseOneProcessor();
+  ::dup2(::open("/dev/null", O_RDONLY), STDIN_FILENO);
+  ::dup2(out.Descriptor(), STDOUT_FILENO);
+  ::dup2(err.Descriptor(), STDERR_FILENO);
+  std::vector<char*> pointers;
+  for (const std::string& word : words) pointers.push_back(const_cast<char*>(word.c_str()));
+  pointers.push_back(nullptr);
+  ::execv(pointers[0], pointers.data());
+  ::_exit(127);
+}
+
+}  // namespace
+
+ProgramRun RunProgram(const std::vector<std::string>& words, const Surroundings& where) {
+  const Catch out, err;
+  const pid_t child = ::fork();
+  if (child < 0) throw std::runtime_error("no new process");
+  if (child == 0) Become(words, where, out, err);
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  return {code, out.Text(), err.Text()};
+}
+
+ProgramRun RunTelestrain(const std::vector<std::string>& arguments, const Surroundings& where) {
+  std::vector<std::string> words{TelestrainPath().string()};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  return RunProgram(words, where);
+}
+
+fs::path TelestrainPath() { return TELESTRAIN_PROGRAM; }
+
+fs::path SmallSession() { return fs::path(TELESTRAIN_SOURCE_FOLDER) / "data/small_session"; }
+
+std::string ReadAll(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw std::runtime_error("cannot read " + path.string());
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::map<std::string, std::string> BytesBelow(const fs::path& folder) {
+  std::map<std::string, std::string> bytes;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    if (entry.is_regular_file())
+      bytes[fs::relative(entry.path(), folder).generic_string()] = ReadAll(entry.path());
+  return bytes;
+}
+
+}  // namespace telestrain::testing_support

@@ -1,0 +1,97 @@
+#include <gtest/gtest.h>
+
+#include "cli/session_copy.h"
+
+namespace telestrain::testing_support {
+namespace {
+
+const std::vector<std::string> kVerbs = {"run",     "detect", "calibrate", "verify",
+                                         "measure", "render", "report",    "simulate"};
+
+bool Holds(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+void ExpectUsageError(const std::vector<std::string>& arguments, const std::string& part) {
+  const ProgramRun run = RunTelestrain(arguments);
+  EXPECT_EQ(run.exit_code, 2) << run.err;
+  EXPECT_EQ(run.out, "");
+  EXPECT_TRUE(Holds(run.err, part)) << "wanted: " << part << "\nis: " << run.err;
+}
+
+TEST(Usage, NoVerbIsAnErrorThatPointsToTheHelp) { ExpectUsageError({}, "--help"); }
+
+TEST(Usage, AnUnknownVerbIsNamedWithTheNearestKnownOne) {
+  ExpectUsageError({"calibrte", "session"}, "unknown verb 'calibrte'");
+  ExpectUsageError({"calibrte", "session"}, "'calibrate'");
+}
+
+TEST(Usage, AnUnknownOptionIsNamed) {
+  ExpectUsageError({"run", "session", "--out", "results", "--colour"}, "--colour");
+  ExpectUsageError({"--colour"}, "");
+}
+
+TEST(Usage, AMissingArgumentIsNamed) {
+  for (const std::string verb : {"run", "detect", "calibrate", "verify", "measure"}) {
+    ExpectUsageError({verb, "--out", "results"}, "SESSION");
+    ExpectUsageError({verb, "session"}, "--out");
+  }
+  for (const std::string verb : {"render", "report"}) ExpectUsageError({verb}, "RESULTS");
+  ExpectUsageError({"simulate"}, "--out");
+}
+
+TEST(Usage, AnOptionOutsideItsRangeIsAnErrorWithTheRange) {
+  ExpectUsageError({"simulate", "--out", "session", "--noise-gray", "99"}, "0 to 20 gray");
+  ExpectUsageError({"simulate", "--out", "session", "--binning", "two"}, "--binning");
+  EXPECT_FALSE(std::filesystem::exists("session"));
+}
+
+TEST(Usage, TheHelpNamesEveryVerbAndExitCode) {
+  const ProgramRun run = RunTelestrain({"--help"});
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_EQ(run.err, "");
+  for (const std::string& verb : kVerbs) EXPECT_TRUE(Holds(run.out, "\n  " + verb)) << verb;
+  for (const std::string code : {"0 accepted", "1 measured", "2 wrong", "3 bad", "4 estimation",
+                                 "5 rendering", "70 a defect"})
+    EXPECT_TRUE(Holds(run.out, code)) << code;
+}
+
+TEST(Usage, EveryVerbHelpsWithAnExampleOfItself) {
+  for (const std::string& verb : kVerbs) {
+    const ProgramRun run = RunTelestrain({verb, "--help"});
+    EXPECT_EQ(run.exit_code, 0) << verb;
+    EXPECT_EQ(run.err, "") << verb;
+    EXPECT_TRUE(Holds(run.out, "Example: telestrain " + verb + " ")) << run.out;
+  }
+}
+
+TEST(Usage, TheVersionIsOneLine) {
+  const ProgramRun run = RunTelestrain({"--version"});
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_TRUE(run.out.starts_with("telestrain ")) << run.out;
+  EXPECT_EQ(run.out.find('\n'), run.out.size() - 1);
+}
+
+using OutFolder = SessionCopy;
+
+TEST_F(OutFolder, MustNotBeTheSessionItself) {
+  const auto before = BytesBelow(session());
+  for (const char* tail : {"", "/", "/../session"}) {
+    const ProgramRun run =
+        RunTelestrain({"run", session().string(), "--out", session().string() + tail});
+    EXPECT_EQ(run.exit_code, 2) << run.err;
+    EXPECT_TRUE(Holds(run.err, "another folder")) << run.err;
+  }
+  EXPECT_EQ(BytesBelow(session()), before);
+}
+
+TEST_F(OutFolder, OfASimulationMustHoldNoSession) {
+  const auto before = BytesBelow(session());
+  const ProgramRun run = RunTelestrain({"simulate", "--out", session().string()});
+  EXPECT_EQ(run.exit_code, 3) << run.err;
+  EXPECT_TRUE(Holds(run.err, "already holds a session")) << run.err;
+  EXPECT_EQ(BytesBelow(session()), before);
+}
+
+}  // namespace
+}  // namespace telestrain::testing_support
