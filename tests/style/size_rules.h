@@ -28,7 +28,7 @@ Findings CheckFileSize(const SourceFile& file);
 // More than kMaxFunctionLines lines or kMaxNesting levels.
 Findings CheckFunctions(const SourceFile& file);
 
-// What is allowed but above the wanted size, for the log.
+// What is allowed but above the wanted size.
 Findings SizeWarnings(const SourceFile& file);
 
 }  // namespace telestrain::style

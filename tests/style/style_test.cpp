@@ -112,9 +112,14 @@ TEST(Style, DataIsSmall) {
   ExpectNone(CheckDataSize(sizes));
 }
 
-TEST(Style, SizeWarningsAreOnlyPrinted) {
+// Places above the wanted size are exceptions. Their number may only go down: lower it with them.
+TEST(Style, FewPlacesAreAboveTheWantedSize) {
+  constexpr std::size_t kAllowed = 12;
+  Findings all;
   for (const SourceFile& file : TextFiles())
-    for (const std::string& warning : SizeWarnings(file)) std::cout << "long: " << warning << '\n';
+    for (const std::string& warning : SizeWarnings(file)) all.push_back(warning);
+  EXPECT_LE(all.size(), kAllowed);
+  for (const std::string& warning : all) std::cout << "long: " << warning << '\n';
 }
 
 }  // namespace
