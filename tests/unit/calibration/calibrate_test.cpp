@@ -123,6 +123,30 @@ TEST(Calibrate, AStageThatMovesTheOtherWayIsAnError) {
   EXPECT_NE(result.error().message.find("stage"), std::string::npos) << result.error().message;
 }
 
+TEST(Calibrate, ATravelThatTheTableStatesWronglyIsAnErrorThatNamesTheRows) {
+  SyntheticArray array = MakeSyntheticArray({});
+  array.session.calibration_images[3].stage_mm = 2;  // the target moved by 1 mm
+  const auto result = Calibrate(array.session, array.boards);
+  ASSERT_FALSE(result.ok());
+  EXPECT_EQ(result.error().kind, ErrorKind::kEstimationFailed);
+  EXPECT_NE(result.error().message.find("board_1a.png to board_1b.png"), std::string::npos)
+      << result.error().message;
+  EXPECT_NE(result.error().message.find("stage_mm says 2.000"), std::string::npos);
+}
+
+// Six sigma of the noise, but no mistake: within 0.1 px of the model.
+TEST(Calibrate, SmallImperfectionsAreNoOutliersAndMistakesAre) {
+  SyntheticOptions options;
+  options.noise_px = 0.01;
+  SyntheticArray array = MakeSyntheticArray(options);
+  for (std::size_t b = 0; b < array.boards.size(); ++b)
+    for (std::size_t c = b % 20; c < 117; c += 20) array.boards[b].corners[c]->pixel.y() += 0.06;
+  EXPECT_EQ(MustCalibrate(array).corners_rejected, 0);
+  for (std::size_t b = 0; b < array.boards.size(); b += 5)
+    array.boards[b].corners[7]->pixel.x() += 3;
+  EXPECT_EQ(MustCalibrate(array).corners_rejected, 15);
+}
+
 TEST(Calibrate, TooFewImagesAreAnErrorThatSaysHowMany) {
   SyntheticArray array = MakeSyntheticArray({});
   array.boards.resize(8);
