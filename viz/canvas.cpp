@@ -188,6 +188,7 @@ Status Canvas::PlaceLabels(const RgbImage& image) {
     request.size_px = TextSize(label.text, label.style);
     request.preferred_rad = label.preferred_deg * std::numbers::pi / 180;
     request.clearance_px = Px(1.5);
+    request.leader = label.leader;
     request.straight_px = (label.leader ? 3.0 : 2.0) * request.size_px.y();
     const auto box = PlaceLabel(request, Find(panel).box, occupancy, placed);
     if (!box)
@@ -195,7 +196,10 @@ Status Canvas::PlaceLabels(const RgbImage& image) {
                           "'; render a larger picture");
     placed.push_back(box->Grown(request.clearance_px));
     AddText(label.text, {box->left, box->bottom}, label.style);
-    if (label.leader) AddLeader(request.anchor_px, *box);
+    if (!label.leader) continue;
+    AddLeader(request.anchor_px, *box);
+    for (const PixelBox& part : LeaderBoxes(request.anchor_px, *box, request.clearance_px))
+      placed.push_back(part);
   }
   labels_.clear();
   return {};

@@ -19,6 +19,13 @@ bool IsFree(const PixelBox& box, const PixelBox& within, const Occupancy& occupa
   return occupancy.Count(box) == 0;
 }
 
+bool CrossesNone(const std::vector<PixelBox>& leader, const std::vector<PixelBox>& placed) {
+  return std::none_of(leader.begin(), leader.end(), [&](const PixelBox& part) {
+    return std::any_of(placed.begin(), placed.end(),
+                       [&](const PixelBox& other) { return Overlap(part, other); });
+  });
+}
+
 // The label with its edge, not its middle, radius_px away from the anchor.
 PixelBox BoxAt(const LabelRequest& request, double radius_px, double turn_rad) {
   const double angle = request.preferred_rad + turn_rad;
@@ -67,14 +74,33 @@ bool Overlap(const PixelBox& a, const PixelBox& b) {
   return a.left < b.Right() && b.left < a.Right() && a.bottom < b.Top() && b.bottom < a.Top();
 }
 
-std::optional<PixelBox> PlaceLabel(const LabelRequest& request, const PixelBox& within,
-                                   const Occupancy& occupancy,
-                                   const std::vector<PixelBox>& placed) {
+std::vector<PixelBox> LeaderBoxes(const Eigen::Vector2d& anchor_px, const PixelBox& label,
+                                  double gap_px) {
+  constexpr double kStep_px = 4;
+  const PixelBox near = label.Grown(gap_px);
+  const Eigen::Vector2d end(std::clamp(anchor_px.x(), near.left, near.Right()),
+                            std::clamp(anchor_px.y(), near.bottom, near.Top()));
+  const int parts = static_cast<int>((end - anchor_px).norm() / kStep_px);
+  std::vector<PixelBox> boxes;
+  for (int i = 1; i < parts; ++i) {  // leaders may share their anchor
+    const Eigen::Vector2d at = anchor_px + (end - anchor_px) * i / parts;
+    boxes.push_back(PixelBox{at.x(), at.y(), 0, 0}.Grown(0.5 * kStep_px));
+  }
+  return boxes;
+}
+
+namespace {
+
+std::optional<PixelBox> NearestPlace(const LabelRequest& request, const PixelBox& within,
+                                     const Occupancy& occupancy,
+                                     const std::vector<PixelBox>& placed) {
   constexpr int kDirections = 32;
   const double ring_px = std::max(2.0, 0.25 * request.size_px.y());
   const double farthest_px = std::hypot(within.width, within.height);
   const auto is_free = [&](const PixelBox& box) {
-    return IsFree(box.Grown(request.clearance_px), within, occupancy, placed);
+    return IsFree(box.Grown(request.clearance_px), within, occupancy, placed) &&
+           (!request.leader ||
+            CrossesNone(LeaderBoxes(request.anchor_px, box, request.clearance_px), placed));
   };
   for (double radius_px = ring_px; radius_px < request.straight_px; radius_px += ring_px)
     if (const PixelBox box = BoxAt(request, radius_px, 0); is_free(box)) return box;
@@ -86,6 +112,17 @@ std::optional<PixelBox> PlaceLabel(const LabelRequest& request, const PixelBox& 
       if (const PixelBox box = BoxAt(request, radius_px, turn_rad); is_free(box)) return box;
     }
   return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<PixelBox> PlaceLabel(const LabelRequest& request, const PixelBox& within,
+                                   const Occupancy& occupancy,
+                                   const std::vector<PixelBox>& placed) {
+  if (const auto box = NearestPlace(request, within, occupancy, placed)) return box;
+  LabelRequest crossing = request;
+  crossing.leader = false;
+  return request.leader ? NearestPlace(crossing, within, occupancy, placed) : std::nullopt;
 }
 
 }  // namespace telestrain::viz

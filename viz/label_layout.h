@@ -31,10 +31,16 @@ struct LabelRequest {
   double preferred_rad = 0;
   double clearance_px = 0;  // kept free around the label
   double straight_px = 0;   // up to here the preferred direction beats nearer places elsewhere
+  bool leader = false;      // a line joins label and anchor; it crosses no placed box if it can
 };
 std::optional<PixelBox> PlaceLabel(const LabelRequest& request, const PixelBox& within,
                                    const Occupancy& occupancy, const std::vector<PixelBox>& placed);
 
 bool Overlap(const PixelBox& a, const PixelBox& b);
+
+// The leader from an anchor to a label's box, `gap_px` short of it, as small boxes along its way
+// for `placed`; empty when the label stands beside its anchor.
+std::vector<PixelBox> LeaderBoxes(const Eigen::Vector2d& anchor_px, const PixelBox& label,
+                                  double gap_px);
 
 }  // namespace telestrain::viz
