@@ -1,63 +1,74 @@
 #include "simulation/deformed_pipe.h"
 
-#include <algorithm>
+#include <Eigen/Geometry>
 #include <cmath>
 
 namespace telestrain {
-namespace {
-
-constexpr double kConverged_mm = 1e-10;
-constexpr int kMaxIterations = 30;
-
-}  // namespace
 
 Eigen::Vector3d DeformedPipe::Material(double along_mm, double angle_rad) const {
   return {along_mm, radius_mm * std::sin(angle_rad), radius_mm * std::cos(angle_rad)};
 }
 
 Eigen::Vector3d DeformedPipe::Displacement_mm(const Eigen::Vector3d& p) const {
-  const double e = membrane_strain, k = curvature_per_mm, n = poisson_ratio;
-  return {e * p.x() - k * p.x() * p.z(), -n * e * p.y() + n * k * p.y() * p.z(),
-          -n * e * p.z() + 0.5 * k * p.x() * p.x() + 0.5 * n * k * (p.z() * p.z() - p.y() * p.y())};
+  const double a = UniformAxial(), h = UniformAcross();
+  const double k = curvature_per_mm, n = poisson_ratio;
+  Eigen::Vector3d u(
+      a * p.x() - k * p.x() * p.z(), h * p.y() + n * k * p.y() * p.z(),
+      h * p.z() + 0.5 * k * p.x() * p.x() + 0.5 * n * k * (p.z() * p.z() - p.y() * p.y()));
+  if (twist_rad_per_mm == 0) return u;
+  const double phi = twist_rad_per_mm * p.x(), sine = std::sin(phi);
+  const double one_minus_cosine = 2 * std::sin(0.5 * phi) * std::sin(0.5 * phi);
+  u.y() += p.z() * sine - p.y() * one_minus_cosine;
+  u.z() -= p.y() * sine + p.z() * one_minus_cosine;
+  return u;
 }
 
-double DeformedPipe::AxialStrain(double angle_rad) const {
-  return membrane_strain - curvature_per_mm * radius_mm * std::cos(angle_rad);
+Eigen::Matrix3d DeformedPipe::DisplacementGradient(const Eigen::Vector3d& p) const {
+  const double a = UniformAxial(), h = UniformAcross();
+  const double k = curvature_per_mm, n = poisson_ratio;
+  Eigen::Matrix3d gradient;
+  gradient << a - k * p.z(), 0, -k * p.x(),  // u_x
+      0, h + n * k * p.z(), n * k * p.y(),   // u_y
+      k * p.x(), -n * k * p.y(), h + n * k * p.z();
+  const double phi = twist_rad_per_mm * p.x();
+  const Eigen::Matrix2d turn = Eigen::Rotation2Dd(-phi).toRotationMatrix();
+  gradient.bottomRightCorner<2, 2>() += turn - Eigen::Matrix2d::Identity();
+  const Eigen::Vector2d turned = turn * p.tail<2>();
+  gradient.bottomLeftCorner<2, 1>() += twist_rad_per_mm * Eigen::Vector2d(turned.y(), -turned.x());
+  return gradient;
 }
 
-PipeRays::PipeRays(const DeformedPipe& pipe, const Eigen::Vector3d& direction_in_array)
-    : pipe_(pipe),
-      direction_in_pipe_(pipe.array_from_pipe.transpose() * direction_in_array.normalized()),
-      across2_(direction_in_pipe_.tail<2>().squaredNorm()) {}
-
-SurfaceHit PipeRays::HitUndeformed(const Eigen::Vector3d& point_mm) const {
-  const double along = point_mm.tail<2>().dot(direction_in_pipe_.tail<2>()) / across2_;
-  const Eigen::Vector3d nearest_mm = point_mm - along * direction_in_pipe_;  // to the axis
-  const double distance2 = nearest_mm.tail<2>().squaredNorm();
-  const double r2 = pipe_.radius_mm * pipe_.radius_mm;
-  const double half_chord = std::sqrt(std::max(0.0, r2 - distance2) / across2_);
-  SurfaceHit hit;
-  hit.miss_mm = std::sqrt(distance2) - pipe_.radius_mm;
-  hit.material_mm = nearest_mm - half_chord * direction_in_pipe_;
-  if (hit.miss_mm > 0) hit.material_mm.tail<2>() *= pipe_.radius_mm / std::sqrt(distance2);
-  hit.cos_incidence =
-      -hit.material_mm.tail<2>().dot(direction_in_pipe_.tail<2>()) / pipe_.radius_mm;
-  return hit;
+Eigen::Vector3d DeformedPipe::Bend(const Eigen::Vector3d& straight_mm) const {
+  if (bend_radius_mm == 0) return straight_mm;
+  const double phi = straight_mm.x() / bend_radius_mm;
+  const double one_minus_cosine = 2 * std::sin(0.5 * phi) * std::sin(0.5 * phi);
+  return {(bend_radius_mm - straight_mm.z()) * std::sin(phi), straight_mm.y(),
+          straight_mm.z() + (bend_radius_mm - straight_mm.z()) * one_minus_cosine};
 }
 
-SurfaceHit PipeRays::Hit(const Eigen::Vector3d& point_in_array_mm,
-                         Eigen::Vector3d& displacement_mm) const {
-  const Eigen::Vector3d point_mm =
-      pipe_.array_from_pipe.transpose() * (point_in_array_mm - pipe_.origin_in_array_mm);
-  SurfaceHit hit;
-  for (int i = 0; i < kMaxIterations; ++i) {
-    hit = HitUndeformed(point_mm - displacement_mm);
-    const Eigen::Vector3d found_mm = pipe_.Displacement_mm(hit.material_mm);
-    const double change_mm = (found_mm - displacement_mm).cwiseAbs().maxCoeff();
-    displacement_mm = found_mm;
-    if (change_mm < kConverged_mm) break;
+Eigen::Matrix3d DeformedPipe::BendRotation(double along_mm) const {
+  if (bend_radius_mm == 0) return Eigen::Matrix3d::Identity();
+  const double phi = along_mm / bend_radius_mm;
+  Eigen::Matrix3d rotation;
+  rotation << std::cos(phi), 0, -std::sin(phi), 0, 1, 0, std::sin(phi), 0, std::cos(phi);
+  return rotation;
+}
+
+SurfaceStrain DeformedPipe::StrainAt(double along_mm, double angle_rad) const {
+  const Eigen::Vector3d material_mm = Material(along_mm, angle_rad);
+  const Eigen::Matrix3d map = Eigen::Matrix3d::Identity() + DisplacementGradient(material_mm);
+  Eigen::Vector3d along = map.col(0);
+  Eigen::Vector3d around = map * Eigen::Vector3d(0, std::cos(angle_rad), -std::sin(angle_rad));
+  double along_before = 1;
+  if (bend_radius_mm != 0) {
+    // Bending the axis shortens what is on the inside of the arc.
+    const double z_mm = material_mm.z() + Displacement_mm(material_mm).z();
+    along.x() *= 1 - z_mm / bend_radius_mm;
+    around.x() *= 1 - z_mm / bend_radius_mm;
+    along_before = 1 - material_mm.z() / bend_radius_mm;
   }
-  return hit;
+  return {along.norm() / along_before - 1, around.norm() - 1,
+          std::asin(along.dot(around) / (along.norm() * around.norm()))};
 }
 
 }  // namespace telestrain

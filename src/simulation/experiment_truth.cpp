@@ -36,14 +36,13 @@ TargetSpec TrueTarget(TargetSpec target, double separation_error_um) {
   return target;
 }
 
-Status InventCalibration(const VirtualExperimentOptions& options, const Session& nominal,
-                         ExperimentTruth& truth) {
+Status InventCalibration(const VirtualExperimentOptions& options, ExperimentTruth& truth) {
   RandomStream random(RandomKey(options.seed, RandomPurpose::kStage));
-  truth.stage_axis_in_array =
-      TrueStageAxis(nominal.stage_axis_in_array, options.stage_error_deg, random);
+  random.Uniform();  // the stage's axis took the first number
   PosePlanRequest request;
   request.cut_off_poses = options.cut_off_poses;
   request.whole_poses = options.poses - options.cut_off_poses;
+  request.tilt_deg = options.pose_tilt_deg;
   request.key = RandomKey(options.seed, RandomPurpose::kBoardPoses);
   for (int i = 0; i < options.poses; ++i)
     request.travels_in_array_mm.push_back((kTravel_mm + options.stage_sigma_mm * random.Normal()) *
@@ -73,14 +72,22 @@ Status InventRulers(const VirtualExperimentOptions& options, ExperimentTruth& tr
 
 }  // namespace
 
-Result<ExperimentTruth> InventTruth(const VirtualExperimentOptions& options,
-                                    const Session& nominal) {
+ExperimentTruth InventApparatus(const VirtualExperimentOptions& options, const Session& nominal) {
   ExperimentTruth truth;
   truth.instrument = MakeInstrument(options, nominal);
+  RandomStream random(RandomKey(options.seed, RandomPurpose::kStage));
+  truth.stage_axis_in_array =
+      TrueStageAxis(nominal.stage_axis_in_array, options.stage_error_deg, random);
   truth.target = TrueTarget(nominal.target, options.separation_error_um);
   truth.ruler_length_mm = nominal.ruler.length_mm + 1e-3 * options.ruler_error_um;
   truth.ruler = RulerAsTarget(nominal.target, truth.ruler_length_mm);
-  TELESTRAIN_RETURN_IF_ERROR(InventCalibration(options, nominal, truth));
+  return truth;
+}
+
+Result<ExperimentTruth> InventTruth(const VirtualExperimentOptions& options,
+                                    const Session& nominal) {
+  ExperimentTruth truth = InventApparatus(options, nominal);
+  TELESTRAIN_RETURN_IF_ERROR(InventCalibration(options, truth));
   TELESTRAIN_RETURN_IF_ERROR(InventRulers(options, truth));
   truth.pipe = PlanLoads(options, nominal.pipe);
   return truth;

@@ -35,7 +35,10 @@ struct ExperimentTruth {
   std::vector<PipeTruth> pipe;  // the first one is the reference
 };
 
-// Invents the experiment; fails when no pose fits into the field.
+// The instrument, the stage's axis and the artefacts as they truly are, without any image yet.
+ExperimentTruth InventApparatus(const VirtualExperimentOptions& options, const Session& nominal);
+
+// Invents the whole experiment; fails when no pose fits into the field.
 Result<ExperimentTruth> InventTruth(const VirtualExperimentOptions& options,
                                     const Session& nominal);
 

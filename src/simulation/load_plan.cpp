@@ -1,17 +1,22 @@
 #include "simulation/load_plan.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "geometry/rotation.h"
+#include "simulation/load_case.h"
 #include "simulation/random_keys.h"
 
 namespace telestrain {
 namespace {
 
-constexpr double kHalfArc_rad = 32 * std::numbers::pi / 180;
 constexpr int kArcSamples = 64;
-constexpr double kSeconds_per_state = 20;
+// Half the stereo angle and half the height of a view's field (972 px of 4.4 um), of the drawing.
+constexpr double kHalfStereo_rad = std::numbers::pi / 6;
+constexpr double kHalfField_mm = 2.1384;
+// Nearer to the silhouette of the other view nothing can be correlated.
+constexpr double kWidestArc_rad = 50 * std::numbers::pi / 180;
 constexpr int kGauges = 4;
 
 // Share of the full load at step `step` (from 1) of a cycle of `steps`: up to 1 and down to 0.
@@ -45,21 +50,35 @@ std::vector<std::optional<double>> ReadGauges(const VirtualExperimentOptions& op
   return readings;
 }
 
-// Mean position along the pipe of the material points of one cross-section's visible arc.
-double MeanAlong_mm(const DeformedPipe& pipe, double x_mm) {
-  double sum_mm = 0;
-  for (int i = 0; i < kArcSamples; ++i) {
-    const double angle_rad = kHalfArc_rad * ((2.0 * i + 1) / kArcSamples - 1);
-    const Eigen::Vector3d material_mm = pipe.Material(x_mm, angle_rad);
-    sum_mm += x_mm + pipe.Displacement_mm(material_mm).x();
-  }
+// Half the arc that both views of a group see of a pipe that touches the middle of their field: the
+// surface point at the angle t appears R (sin(t - a) + sin a) from the middle, a = half the stereo
+// angle. 32 deg for a pipe of 8 mm.
+double SeenHalfArc_rad(double radius_mm) {
+  const double sine = kHalfField_mm / radius_mm - std::sin(kHalfStereo_rad);
+  return std::min(kWidestArc_rad, kHalfStereo_rad + std::asin(std::min(1.0, sine)));
+}
+
+// Calls visit(angle) for angles over that arc.
+template <typename Visit>
+void ForVisibleArc(double radius_mm, const Visit& visit) {
+  const double half_arc_rad = SeenHalfArc_rad(radius_mm);
+  for (int i = 0; i < kArcSamples; ++i) visit(half_arc_rad * ((2.0 * i + 1) / kArcSamples - 1));
+}
+
+// Mean place (pipe frame) of the material points of one cross-section's visible arc.
+Eigen::Vector3d MeanInPipe_mm(const DeformedPipe& pipe, double x_mm) {
+  Eigen::Vector3d sum_mm = Eigen::Vector3d::Zero();
+  ForVisibleArc(pipe.radius_mm,
+                [&](double angle_rad) { sum_mm += pipe.InPipe(pipe.Material(x_mm, angle_rad)); });
   return sum_mm / kArcSamples;
 }
 
 double StrainBetween(const DeformedPipe& state, const DeformedPipe& reference, double from_mm,
                      double to_mm) {
-  const double length_mm = MeanAlong_mm(state, to_mm) - MeanAlong_mm(state, from_mm);
-  return length_mm / (MeanAlong_mm(reference, to_mm) - MeanAlong_mm(reference, from_mm)) - 1;
+  const Eigen::Vector3d before_mm =
+      MeanInPipe_mm(reference, to_mm) - MeanInPipe_mm(reference, from_mm);
+  const Eigen::Vector3d after_mm = MeanInPipe_mm(state, to_mm) - MeanInPipe_mm(state, from_mm);
+  return after_mm.dot(before_mm) / before_mm.squaredNorm() - 1;
 }
 
 }  // namespace
@@ -77,17 +96,13 @@ std::vector<PipeTruth> PlanLoads(const VirtualExperimentOptions& options, const 
     };
     const int step = i == 0 ? 0 : i - first_of(cycle);
     const double share = i == 0 ? 0 : LoadShare(step, first_of(cycle + 1) - first_of(cycle));
-    DeformedPipe pipe;
-    pipe.radius_mm = 0.5 * spec.outer_diameter_mm;
-    pipe.poisson_ratio = spec.poisson_ratio;
-    pipe.membrane_strain = 1e-6 * options.strain_max_microstrain * share;
-    pipe.curvature_per_mm = 1e-6 * options.bending_max_microstrain * share / pipe.radius_mm;
+    DeformedPipe pipe = PipeUnderLoad(options, spec, share);
     MoveRigidly(options, motion, pipe);
     std::string number = std::to_string(i);
     if (number.size() < 3) number.insert(0, 3 - number.size(), '0');
     states.push_back(
         {{"pipe/pipe_" + number + ".png", std::to_string(cycle + 1), std::to_string(step),
-          i * kSeconds_per_state, ReadGauges(options, pipe, gauges)},
+          i * options.image_interval_s, ReadGauges(options, pipe, gauges)},
          pipe});
   }
   return states;
@@ -99,8 +114,15 @@ TrueStrain StrainOf(const DeformedPipe& state, const DeformedPipe& reference, do
   const auto local = [&](double x_mm) {
     return StrainBetween(state, reference, x_mm - kHalfPatch_mm, x_mm + kHalfPatch_mm);
   };
-  return {StrainBetween(state, reference, patch_a_x_mm, patch_b_x_mm), local(patch_a_x_mm),
-          local(patch_b_x_mm)};
+  TrueStrain strain{StrainBetween(state, reference, patch_a_x_mm, patch_b_x_mm),
+                    local(patch_a_x_mm), local(patch_b_x_mm)};
+  for (const double x_mm : {patch_a_x_mm, patch_b_x_mm})
+    ForVisibleArc(state.radius_mm, [&](double angle_rad) {
+      const SurfaceStrain surface = state.StrainAt(x_mm, angle_rad);
+      strain.hoop += surface.hoop / (2 * kArcSamples);
+      strain.shear += surface.shear / (2 * kArcSamples);
+    });
+  return strain;
 }
 
 }  // namespace telestrain

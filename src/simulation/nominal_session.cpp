@@ -103,7 +103,7 @@ Session NominalSession(const VirtualExperimentOptions& options) {
     for (const int view : {0, 1}) session.views.push_back(MakeView(session, group, view));
   session.target = NominalTarget();
   session.ruler = {27.6, 0.25};
-  session.pipe = {8.0, 0.31, "TA18 titanium tube"};
+  session.pipe = {options.pipe_diameter_mm, 0.31, "TA18 titanium tube"};
   session.acceptance = NominalAcceptance();
   session.document = NominalDocument(options);
   if (options.mirrors) return session;

@@ -1,59 +1,16 @@
 #include "simulation/pipe_image.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
+
+#include "simulation/pipe_shader.h"
+#include "simulation/scene_image.h"
 
 namespace telestrain {
 namespace {
 
 constexpr double kSpeckleDiameter_px = 7.5;
-constexpr double kPaint_gray = 45, kBare_gray = 205, kBackground_gray = 22;
-// Diffuse light from the instrument's side: what a surface that turns away still gets.
-constexpr double kAmbient = 0.35;
 constexpr double kPatchMargin_mm = 0.6;  // errors of views and rigid motion
 constexpr double kHalfArc_rad = 1.75;    // 100 deg: more than any view sees
-
-// Renders one view: keeps what is the same for all of its pixels.
-class PipeShader {
- public:
-  PipeShader(const VirtualInstrument& instrument, const InstrumentView& view,
-             const SpecklePattern& pattern, const DeformedPipe& pipe)
-      : blur_sigma_mm_(instrument.BlurSigma_mm()),
-        view_(view.view),
-        pattern_(pattern),
-        pipe_(pipe),
-        rays_(pipe, view.viewing_direction) {}
-
-  void Shade(const std::vector<Eigen::Vector2d>& ideal_mm, std::span<float> gray) const {
-    Eigen::Vector3d displacement_mm = Eigen::Vector3d::Zero();
-    for (std::size_t i = 0; i < gray.size(); ++i) {
-      const SurfaceHit hit = rays_.Hit(view_.PointOnRay(ideal_mm[i]), displacement_mm);
-      gray[i] = static_cast<float>(Gray(hit));
-    }
-  }
-
- private:
-  double Gray(const SurfaceHit& hit) const {
-    const double visible = 0.5 * std::erfc(hit.miss_mm / blur_sigma_mm_ * std::numbers::sqrt2 / 2);
-    if (visible < 1e-6) return kBackground_gray;
-    const double angle_rad = std::atan2(hit.material_mm.y(), hit.material_mm.z());
-    const double stretch = 1 / std::max(hit.cos_incidence, 1 / SpecklePattern::kMaxStretch);
-    const double paint =
-        pattern_.Paint({hit.material_mm.x(), pipe_.radius_mm * angle_rad}, stretch);
-    const Eigen::Vector3d normal(0, std::sin(angle_rad), std::cos(angle_rad));
-    const double upward = std::max(0.0, pipe_.array_from_pipe.row(2).dot(normal));
-    const double light = kAmbient + (1 - kAmbient) * upward;
-    const double surface_gray = (kBare_gray + (kPaint_gray - kBare_gray) * paint) * light;
-    return kBackground_gray + (surface_gray - kBackground_gray) * visible;
-  }
-
-  double blur_sigma_mm_;
-  const TelecentricView& view_;
-  const SpecklePattern& pattern_;
-  const DeformedPipe& pipe_;
-  PipeRays rays_;
-};
 
 }  // namespace
 
@@ -69,11 +26,18 @@ PaintedPipe PaintPipe(const VirtualInstrument& instrument, double radius_mm, std
   for (const InstrumentView& view : instrument.views) {
     if (std::find(paint.groups.begin(), paint.groups.end(), view.view.group) != paint.groups.end())
       continue;
+    double low_mm = view.center_in_array_mm.x(), high_mm = low_mm;
+    for (const InstrumentView& other : instrument.views)
+      if (other.view.group == view.view.group) {
+        low_mm = std::min(low_mm, other.center_in_array_mm.x());
+        high_mm = std::max(high_mm, other.center_in_array_mm.x());
+      }
     const double half_mm = 0.5 * view.region.width * px_mm + kPatchMargin_mm;
-    const double x_mm = view.center_in_array_mm.x(), arc_mm = radius_mm * kHalfArc_rad;
-    const SurfacePatch patch{{x_mm - half_mm, -arc_mm}, {x_mm + half_mm, arc_mm}};
+    // On a wide pipe a view sees less than half of it.
+    const double arc_mm = std::min(radius_mm * kHalfArc_rad, 4 * half_mm);
+    const SurfacePatch patch{{low_mm - half_mm, -arc_mm}, {high_mm + half_mm, arc_mm}};
     paint.groups.push_back(view.view.group);
-    paint.patterns.emplace_back(key, patch, kSpeckleDiameter_px * px_mm, instrument.BlurSigma_mm());
+    paint.patterns.emplace_back(key, patch, kSpeckleDiameter_px * px_mm);
   }
   return paint;
 }
@@ -82,7 +46,7 @@ GrayImage RenderPipe(const VirtualInstrument& instrument, const PaintedPipe& pai
                      const DeformedPipe& pipe, int threads) {
   const RowShader shader = [&](const InstrumentView& view, const auto& ideal_mm,
                                std::span<float> gray) {
-    PipeShader(instrument, view, paint.Of(view.view.group), pipe).Shade(ideal_mm, gray);
+    PipeShader(instrument, view, paint.Of(view.view.group), pipe).ShadeRow(ideal_mm, gray);
   };
   return RenderScene(instrument, shader, threads);
 }

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "base/gray_image.h"
 #include "simulation/deformed_pipe.h"
 #include "simulation/speckle_pattern.h"
 #include "simulation/virtual_instrument.h"

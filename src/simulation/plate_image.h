@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/gray_image.h"
 #include "session/session.h"
 #include "simulation/virtual_instrument.h"
 
@@ -15,8 +16,11 @@ struct PlatePose {
   }
 };
 
-// The noise-free image of a bright glass plate of 40 x 8 mm that carries the boards of `plate`.
+enum class PlateTone { kDarkSquares, kBrightSquares };
+
+// The noise-free image of a glass plate of 40 x 8 mm that carries the boards of `plate`: dark
+// squares on a bright plate, or the inverse.
 GrayImage RenderPlate(const VirtualInstrument& instrument, const TargetSpec& plate,
-                      const PlatePose& pose, int threads);
+                      const PlatePose& pose, int threads, PlateTone tone = PlateTone::kDarkSquares);
 
 }  // namespace telestrain

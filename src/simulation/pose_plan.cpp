@@ -15,7 +15,7 @@ namespace {
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 
 // Half ranges of a pose about the middle of its box: mm along x, y, z, degrees about x, y, z.
-const Vector6d kHalfRange{{0.8, 1.0, 0.7, 8.0, 2.5, 4.0}};
+Vector6d HalfRange(double tilt_deg) { return Vector6d{{0.8, 1.0, 0.7, tilt_deg, 2.5, 4.0}}; }
 constexpr double kMargin_mm = 0.12;  // bright plate that stays visible around a whole board
 // By how much a cut-off board leaves the region: its outer squares and a row of corners.
 constexpr double kSmallestCut_mm = 0.4, kLargestCut_mm = 1.0;
@@ -38,11 +38,11 @@ Vector6d HaltonPoint(int index, const Vector6d& shift) {
 
 class Planner {
  public:
-  Planner(const VirtualInstrument& instrument, const TargetSpec& plate)
-      : instrument_(instrument), plate_(plate) {}
+  Planner(const VirtualInstrument& instrument, const TargetSpec& plate, double tilt_deg)
+      : instrument_(instrument), plate_(plate), half_range_(HalfRange(tilt_deg)) {}
 
   PlatePose PoseAt(const Vector6d& point, const Eigen::Vector3d& travel_mm) const {
-    const Vector6d value = point.cwiseProduct(kHalfRange);
+    const Vector6d value = point.cwiseProduct(half_range_);
     PlatePose pose;
     pose.array_from_plate = ExpRotation(value.tail<3>() * std::numbers::pi / 180);
     // Half of the travel on either side of the middle of the depth of field.
@@ -84,12 +84,13 @@ class Planner {
 
   // How far the board reaches over the region's border; negative: it stays inside.
   double Overhang_mm(const InstrumentView& view, const PlatePose& pose) const {
-    const Eigen::Vector2d middle_mm = view.view.Ideal(view.center_in_array_mm);
+    const Eigen::Vector2d middle_mm = instrument_.Ideal(view, view.center_in_array_mm);
     const Eigen::Vector2d half_mm = Eigen::Vector2d(view.region.width, view.region.height) / 2 /
                                     instrument_.lens.magnification_px_per_mm;
     double overhang_mm = -std::numeric_limits<double>::infinity();
     for (const Eigen::Vector3d& corner : Outline(view, pose)) {
-      const Eigen::Vector2d off_mm = (view.view.Ideal(corner) - middle_mm).cwiseAbs() - half_mm;
+      const Eigen::Vector2d off_mm =
+          (instrument_.Ideal(view, corner) - middle_mm).cwiseAbs() - half_mm;
       overhang_mm = std::max(overhang_mm, off_mm.maxCoeff());
     }
     return overhang_mm;
@@ -98,14 +99,14 @@ class Planner {
   bool IsInFocus(const InstrumentView& view, const PlatePose& pose) const {
     const double limit_mm = 0.5 * instrument_.depth_of_field_mm;
     for (const Eigen::Vector3d& corner : Outline(view, pose)) {
-      const double depth_mm = view.viewing_direction.dot(corner - view.center_in_array_mm);
-      if (std::abs(depth_mm) > limit_mm) return false;
+      if (std::abs(view.BeyondFocus_mm(corner)) > limit_mm) return false;
     }
     return true;
   }
 
   const VirtualInstrument& instrument_;
   const TargetSpec& plate_;
+  Vector6d half_range_;
 };
 
 // The `wanted` members of `pool` that lie farthest from each other, the most central one first.
@@ -172,7 +173,7 @@ std::vector<PosePair> Arrange(const Planner& planner, const std::vector<Vector6d
 
 Result<std::vector<PosePair>> PlanPoses(const VirtualInstrument& instrument,
                                         const TargetSpec& plate, const PosePlanRequest& request) {
-  const Planner planner(instrument, plate);
+  const Planner planner(instrument, plate, request.tilt_deg);
   const auto& travels = request.travels_in_array_mm;
   const Eigen::Vector3d typical_mm = travels.empty() ? Eigen::Vector3d::Zero() : travels.front();
   const Vector6d shift = RandomShift(request.key);

@@ -18,6 +18,7 @@ struct PosePair {
 struct PosePlanRequest {
   int whole_poses = 0;    // every board whole in every view, before and after the travel
   int cut_off_poses = 0;  // exactly one board cut off in exactly one view
+  double tilt_deg = 8;    // half range of the rotation about the array's x
   std::uint64_t key = 0;  // of the randomness
   std::vector<Eigen::Vector3d> travels_in_array_mm;  // one per pose, or empty: no travel
 };

@@ -16,6 +16,10 @@ enum class RandomPurpose : std::uint64_t {
   kGauges,
   kSpeckle,
   kPixelNoise,
+  kMirrors,
+  kDust,
+  kVibration,
+  kWarmUp,
 };
 
 inline std::uint64_t RandomKey(std::uint64_t seed, RandomPurpose purpose) {

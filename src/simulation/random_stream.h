@@ -15,7 +15,8 @@ std::uint64_t ScatterBits(std::uint64_t bits);
 // One key from two numbers; a chain of calls gives a key from any number of them.
 std::uint64_t CombineKeys(std::uint64_t a, std::uint64_t b);
 
-// Two independent standard normal deviates for this key and counter (Box-Muller).
+// Two independent standard normal deviates for this key and counter: the quantiles of 32 random
+// bits each. The same bits on every machine.
 std::array<double, 2> NormalPair(std::uint64_t key, std::uint64_t counter);
 
 // The numbers of one key in sequence.

@@ -8,11 +8,21 @@
 
 namespace telestrain {
 
-// Turns an ideal image (8-bit scale) into what the sensor delivers: read noise, whole grey levels
-// of `bit_depth` bits, clipped. `noise_gray` is the standard deviation of both together on the
-// 8-bit scale; a value below quantisation's own 0.29 gives quantisation alone. Every pixel's noise
-// follows from `key` and its place.
-GrayImage ReadOut(const GrayImage& ideal, double noise_gray, int bit_depth, std::uint64_t key);
+struct SensorModel {
+  int bit_depth = 8;  // 8, 10, 12 or 16
+  // Standard deviation of read noise and quantisation together, on the 8-bit scale; a value below
+  // quantisation's own 0.29 levels gives quantisation alone.
+  double noise_gray = 0;
+  // Electrons at full scale. Their shot noise has the variance gray * 255 / full_well (8-bit
+  // scale); it is taken as normal. 0: none.
+  double full_well_electrons = 0;
+};
+
+// Turns an ideal image (8-bit scale) into what the sensor delivers: noise, whole grey levels of
+// `bit_depth` bits, clipped. Levels of 10 and 12 bits are shifted up into 16 (multiples of 64 and
+// 16). Every pixel's noise follows from `key` and its place, whatever the number of threads.
+GrayImage ReadOut(const GrayImage& ideal, const SensorModel& sensor, std::uint64_t key,
+                  int threads = 1);
 
 // PNG bytes of an image of whole grey levels; 16 bits when max_gray is above 255.
 Result<std::string> EncodePng(const GrayImage& image);

@@ -55,7 +55,7 @@ Json BoardJson(const VirtualInstrument& instrument, const InstrumentView& view,
                const TargetSpec& plate, const PlatePose& pose) {
   const SubBoard& board = *plate.FindBoard(view.view.group);
   const auto pixel_of = [&](const Eigen::Vector3d& point_mm) {
-    return Project(instrument.lens, view.view, pose.InArray(point_mm));
+    return instrument.Project(view, pose.InArray(point_mm));
   };
   if (!Contains(view.region, pixel_of(board.center_in_target_mm))) return nullptr;
   const Eigen::Matrix3Xd corners_mm = plate.CornersInTarget(board);
@@ -128,8 +128,14 @@ Json StateJson(const ExperimentTruth& truth, const PipeTruth& state) {
           {"axial_microstrain", 1e6 * strain.long_base},
           {"local_a_microstrain", 1e6 * strain.local_a},
           {"local_b_microstrain", 1e6 * strain.local_b},
+          {"hoop_microstrain", 1e6 * strain.hoop},
+          {"shear_microstrain", 1e6 * strain.shear},
           {"membrane_microstrain", 1e6 * pipe.membrane_strain},
           {"bending_microstrain", 1e6 * pipe.curvature_per_mm * pipe.radius_mm},
+          {"pressure_axial_microstrain", 1e6 * pipe.pressure_axial_strain},
+          {"pressure_hoop_microstrain", 1e6 * pipe.pressure_hoop_strain},
+          {"thermal_microstrain", 1e6 * pipe.thermal_strain},
+          {"torsion_microstrain", 1e6 * pipe.twist_rad_per_mm * pipe.radius_mm},
           {"rotation_array_from_pipe", Numbers(pipe.array_from_pipe)},
           {"origin_in_array_mm", Numbers(pipe.origin_in_array_mm)},
           {"rigid_motion",

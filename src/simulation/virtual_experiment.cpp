@@ -8,6 +8,7 @@
 #include "base/json_file.h"
 #include "base/parallel.h"
 #include "simulation/experiment_truth.h"
+#include "simulation/image_conditions.h"
 #include "simulation/nominal_session.h"
 #include "simulation/pipe_image.h"
 #include "simulation/random_keys.h"
@@ -16,48 +17,57 @@
 namespace telestrain {
 namespace {
 
-// An image that is still to be made. Images, not rows, are shared among the threads: noise and
-// compression of one image then overlap with the rendering of another.
+// An image that is still to be made, with the instrument as it is then. Images, not rows, are
+// shared among the threads: noise and compression of one then overlap with rendering another.
 struct ImageOrder {
   std::string path;  // inside the session folder
-  std::function<GrayImage()> render;
+  std::function<GrayImage(const VirtualInstrument&)> render;
 };
 
-std::vector<ImageOrder> OrderImages(const ExperimentTruth& truth, const PaintedPipe& paint) {
+// In the order in which they are taken.
+std::vector<ImageOrder> OrderImages(const ExperimentTruth& truth, const PaintedPipe& paint,
+                                    PlateTone tone) {
   std::vector<ImageOrder> orders;
   for (const PlateTruth& plate : truth.calibration)
-    orders.push_back(
-        {plate.image, [&] { return RenderPlate(truth.instrument, truth.target, plate.plate, 1); }});
+    orders.push_back({plate.image, [&, tone](const VirtualInstrument& instrument) {
+                        return RenderPlate(instrument, truth.target, plate.plate, 1, tone);
+                      }});
   for (const PlateTruth& plate : truth.rulers)
-    orders.push_back(
-        {plate.image, [&] { return RenderPlate(truth.instrument, truth.ruler, plate.plate, 1); }});
+    orders.push_back({plate.image, [&, tone](const VirtualInstrument& instrument) {
+                        return RenderPlate(instrument, truth.ruler, plate.plate, 1, tone);
+                      }});
   for (const PipeTruth& state : truth.pipe)
-    orders.push_back(
-        {state.state.image, [&] { return RenderPipe(truth.instrument, paint, state.pipe, 1); }});
+    orders.push_back({state.state.image, [&](const VirtualInstrument& instrument) {
+                        return RenderPipe(instrument, paint, state.pipe, 1);
+                      }});
   return orders;
 }
 
-Status WriteImage(const VirtualExperimentOptions& options, const std::filesystem::path& path,
-                  const ImageOrder& order, int number) {
+Status WriteImage(const VirtualExperimentOptions& options, const VirtualInstrument& warm,
+                  const ImageOrder& order, const std::filesystem::path& folder, int number) {
   const auto purpose = RandomKey(options.seed, RandomPurpose::kPixelNoise);
   const auto key = CombineKeys(purpose, static_cast<std::uint64_t>(number));
-  const GrayImage image = ReadOut(order.render(), options.noise_gray, options.bit_depth, key);
-  TELESTRAIN_ASSIGN_OR_RETURN(const std::string png, EncodePng(image));
-  return WriteFileAtomically(path, png);
+  const SensorModel sensor{options.bit_depth, options.noise_gray, options.full_well_electrons};
+  const GrayImage ideal = order.render(InstrumentAtImage(options, warm, number));
+  TELESTRAIN_ASSIGN_OR_RETURN(const std::string png, EncodePng(ReadOut(ideal, sensor, key)));
+  return WriteFileAtomically(folder / order.path, png);
 }
 
 Status WriteImages(const VirtualExperimentOptions& options, const ExperimentTruth& truth,
                    const std::filesystem::path& folder, Console& console) {
   for (const char* name : {"calibration", "ruler", "pipe"})
     TELESTRAIN_RETURN_IF_ERROR(EnsureFolder(folder / name));
-  const PaintedPipe paint = PaintPipe(truth.instrument, truth.pipe.front().pipe.radius_mm,
-                                      RandomKey(options.seed, RandomPurpose::kSpeckle));
-  const std::vector<ImageOrder> orders = OrderImages(truth, paint);
+  PaintedPipe paint;
+  if (!truth.pipe.empty())
+    paint = PaintPipe(truth.instrument, truth.pipe.front().pipe.radius_mm,
+                      RandomKey(options.seed, RandomPurpose::kSpeckle));
+  const std::vector<ImageOrder> orders = OrderImages(
+      truth, paint, options.inverted ? PlateTone::kBrightSquares : PlateTone::kDarkSquares);
   const int count = static_cast<int>(orders.size());
   std::vector<Status> written(orders.size());
   std::atomic<int> done{0};
   ParallelFor(count, options.threads, [&](int i) {
-    written[i] = WriteImage(options, folder / orders[i].path, orders[i], i);
+    written[i] = WriteImage(options, truth.instrument, orders[i], folder, i);
     console.Progress("simulate", ++done, count);
   });
   for (const Status& status : written) TELESTRAIN_RETURN_IF_ERROR(status);
@@ -71,7 +81,7 @@ Session SessionOf(Session session, const VirtualExperimentOptions& options,
     session.calibration_images.push_back({plate.image, plate.pose, plate.stage_mm});
   for (const PlateTruth& plate : truth.rulers) session.ruler_images.push_back(plate.image);
   for (const PipeTruth& state : truth.pipe) session.pipe_states.push_back(state.state);
-  if (!options.gauges) return session;
+  if (!options.gauges || truth.pipe.empty()) return session;
   for (std::size_t i = 0; i < truth.pipe.front().state.gauges_microstrain.size(); ++i)
     session.gauge_columns.push_back("gauge_" + std::to_string(i + 1) + "_microstrain");
   return session;

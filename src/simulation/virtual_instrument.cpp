@@ -5,17 +5,20 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/parallel.h"
 #include "geometry/rotation.h"
+#include "simulation/mirror_errors.h"
+#include "simulation/nominal_session.h"
 #include "simulation/random_keys.h"
 
 namespace telestrain {
 namespace {
 
-constexpr int kNodeStep_px = 16;
-constexpr double kIlluminationGradient = 0.1;
 // The axis of Brown's distortion misses the middle of the sensor by up to this much.
 constexpr double kDecentering_mm = 0.2;
+// Standard deviation of the Gaussian that fits an Airy disc, over wavelength / aperture.
+constexpr double kAirySigma = 0.21;
+constexpr double kSmallestDust_px = 3, kLargestDust_px = 15;
+constexpr double kFaintestDust = 0.05, kDarkestDust = 0.6;
 
 Eigen::Vector3d RandomVector(RandomStream& random, double largest) {
   const double x = random.Uniform(-largest, largest);
@@ -36,6 +39,21 @@ TelecentricLens TrueLens(const VirtualExperimentOptions& options, const Session&
   return lens;
 }
 
+// The drawn views, or those behind the drawing's mirrors with their errors.
+std::vector<NominalView> ViewsBehindMirrors(const VirtualExperimentOptions& options,
+                                            const Session& nominal) {
+  if (options.mirror_error_mrad == 0 && options.mirror_error_um == 0) return nominal.views;
+  VirtualExperimentOptions with_mirrors = options;
+  with_mirrors.mirrors = true;
+  const Session drawing = NominalSession(with_mirrors);
+  RandomStream random(RandomKey(options.seed, RandomPurpose::kMirrors));
+  std::vector<NominalView> views;
+  for (const NominalView& view : drawing.views)
+    views.push_back(MisalignMirrors(drawing, view, 1e-3 * options.mirror_error_mrad,
+                                    1e-3 * options.mirror_error_um, random));
+  return views;
+}
+
 InstrumentView TrueView(const VirtualExperimentOptions& options, const NominalView& nominal,
                         const TelecentricLens& lens, RandomStream& random) {
   InstrumentView result;
@@ -54,28 +72,22 @@ InstrumentView TrueView(const VirtualExperimentOptions& options, const NominalVi
   result.viewing_direction = ray.dot(nominal.axis_in_array) < 0 ? Eigen::Vector3d(-ray) : ray;
   const double angle = random.Uniform(0, 2 * std::numbers::pi);
   const Eigen::Vector2d slope(std::cos(angle), std::sin(angle));
-  result.illumination_slope = kIlluminationGradient * slope / slope.lpNorm<1>();
+  result.illumination_slope =
+      options.illumination_gradient_percent / 100 * slope / slope.lpNorm<1>();
   return result;
 }
 
-// Cubic through four equidistant nodes at -1, 0, 1, 2.
-Eigen::Vector2d CubicBetween(const Eigen::Vector2d* node, double t) {
-  const double a = -t * (t - 1) * (t - 2) / 6, b = (t + 1) * (t - 1) * (t - 2) / 2;
-  const double c = -(t + 1) * t * (t - 2) / 2, d = (t + 1) * t * (t - 1) / 6;
-  return a * node[0] + b * node[1] + c * node[2] + d * node[3];
-}
-
-void ShadeRow(const VirtualInstrument& instrument, const InstrumentView& view,
-              const RowShader& shader, int y, std::span<float> row) {
-  const PixelRegion& region = view.region;
-  const auto ideal_mm = IdealOfRow(instrument.lens, region.x, y, region.width);
-  const std::span<float> gray = row.subspan(region.x, region.width);
-  shader(view, ideal_mm, gray);
-  const double down = (y - region.Middle().y()) / (0.5 * region.height);
-  for (int x = 0; x < region.width; ++x) {
-    const double right = (region.x + x - region.Middle().x()) / (0.5 * region.width);
-    gray[x] *= static_cast<float>(1 + view.illumination_slope.dot(Eigen::Vector2d(right, down)));
+std::vector<DustSpeck> ScatterDust(const VirtualExperimentOptions& options,
+                                   const SensorSpec& sensor) {
+  RandomStream random(RandomKey(options.seed, RandomPurpose::kDust));
+  std::vector<DustSpeck> dust(static_cast<std::size_t>(options.dust_specks));
+  for (DustSpeck& speck : dust) {
+    speck.center_px.x() = random.Uniform(0, sensor.width_px - 1);
+    speck.center_px.y() = random.Uniform(0, sensor.height_px - 1);
+    speck.radius_px = random.Uniform(kSmallestDust_px, kLargestDust_px);
+    speck.attenuation = random.Uniform(kFaintestDust, kDarkestDust);
   }
+  return dust;
 }
 
 }  // namespace
@@ -87,36 +99,39 @@ VirtualInstrument MakeInstrument(const VirtualExperimentOptions& options, const 
   instrument.depth_of_field_mm = nominal.depth_of_field_mm;
   instrument.lens = TrueLens(options, nominal);
   RandomStream random(RandomKey(options.seed, RandomPurpose::kViews));
-  for (const NominalView& view : nominal.views)
+  for (const NominalView& view : ViewsBehindMirrors(options, nominal))
     instrument.views.push_back(TrueView(options, view, instrument.lens, random));
   instrument.blur_sigma_px = std::sqrt(options.psf_sigma_px * options.psf_sigma_px + 1.0 / 12.0);
+  instrument.telecentricity_per_mm = options.telecentricity_percent_per_mm / 100;
+  if (options.numerical_aperture > 0)
+    instrument.diffraction_sigma_mm =
+        kAirySigma * 1e-3 * options.wavelength_um / options.numerical_aperture;
+  instrument.pupil_sigma = 0.5 * options.numerical_aperture;
+  instrument.exposure = options.exposure;
+  instrument.illumination_falloff = options.illumination_falloff_percent / 100;
+  instrument.dust = ScatterDust(options, nominal.sensor);
   return instrument;
 }
 
-std::vector<Eigen::Vector2d> IdealOfRow(const TelecentricLens& lens, int first_x, int y,
-                                        int count) {
-  std::vector<Eigen::Vector2d> nodes;
-  for (int x = -kNodeStep_px; x < count + 2 * kNodeStep_px; x += kNodeStep_px)
-    nodes.push_back(lens.IdealFromPixel({first_x + x, y}));
-  std::vector<Eigen::Vector2d> ideal_mm(static_cast<std::size_t>(count));
-  for (int x = 0; x < count; ++x) {
-    const double t = static_cast<double>(x % kNodeStep_px) / kNodeStep_px;
-    ideal_mm[x] = CubicBetween(&nodes[x / kNodeStep_px], t);
-  }
-  return ideal_mm;
+Eigen::Vector2d VirtualInstrument::Ideal(const InstrumentView& view,
+                                         const Eigen::Vector3d& point_in_array_mm) const {
+  const Eigen::Vector2d q_mm = view.view.Ideal(point_in_array_mm);
+  return q_mm / (1 + telecentricity_per_mm * view.BeyondFocus_mm(point_in_array_mm));
 }
 
-GrayImage RenderScene(const VirtualInstrument& instrument, const RowShader& shader, int threads) {
-  GrayImage image{instrument.width_px, instrument.height_px, 255, {}};
-  const auto width = static_cast<std::size_t>(image.width);
-  image.pixels.resize(width * static_cast<std::size_t>(image.height));
-  ParallelFor(image.height, threads, [&](int y) {
-    const std::span<float> row(&image.pixels[static_cast<std::size_t>(y) * width], width);
-    for (const InstrumentView& view : instrument.views)
-      if (y >= view.region.y && y < view.region.y + view.region.height)
-        ShadeRow(instrument, view, shader, y, row);
-  });
-  return image;
+ChiefRay VirtualInstrument::RayOf(const InstrumentView& view,
+                                  const Eigen::Vector2d& ideal_mm) const {
+  const Eigen::Vector3d& axis = view.viewing_direction;
+  return {view.view.PointOnRay(ideal_mm) + axis.dot(view.center_in_array_mm) * axis,
+          axis + telecentricity_per_mm * view.view.axes_in_array.transpose() * ideal_mm};
+}
+
+ViewBlur VirtualInstrument::BlurOf(const InstrumentView& view) const {
+  const double lens_mm = blur_sigma_px / lens.magnification_px_per_mm;
+  const double variance_mm2 = lens_mm * lens_mm + diffraction_sigma_mm * diffraction_sigma_mm;
+  const Eigen::Vector2d motion_mm = view.view.axes_in_array * vibration_in_array_mm;
+  return {variance_mm2 * Eigen::Matrix2d::Identity() + motion_mm * motion_mm.transpose(),
+          pupil_sigma};
 }
 
 }  // namespace telestrain

@@ -6,13 +6,14 @@
 #include <numbers>
 
 #include "geometry/rotation.h"
-#include "simulation/blurred_checkerboard.h"
 #include "simulation/plate_image.h"
+#include "simulation/scene_image.h"
 
 namespace telestrain {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
+constexpr int kHalfProfile_px = 24;
 
 // One oblique view of the whole of a small sensor, with or without a lens that distorts.
 VirtualInstrument OneView(double distortion_per_mm2) {
@@ -26,6 +27,7 @@ VirtualInstrument OneView(double distortion_per_mm2) {
   InstrumentView view;
   view.view = {"A1", "A", ExpRotation({30 * kDegree, 0, 0}).topRows<2>(), {0, 0}};
   view.region = {0, 0, 240, 200};
+  view.viewing_direction = view.view.RayDirection();
   instrument.views.push_back(view);
   return instrument;
 }
@@ -43,51 +45,95 @@ PlatePose PoseTurnedBy(double angle_deg) {
   return {ExpRotation({0.05, -0.03, angle_deg * kDegree}), {0.013, -0.021, 0.1}};
 }
 
-// Place of the one edge that the pixels from `first` to `last` of a row or column cross: the
-// integral of a blurred step does not depend on the blur (pixel sums and integrals differ by
-// exp(-2 pi^2 sigma^2), here 6e-7 of the contrast).
-double EdgePlace(const GrayImage& image, bool along_row, int fixed, int first, int last) {
-  const auto gray = [&](int i) {
-    return static_cast<double>(along_row ? image.At(i, fixed) : image.At(fixed, i));
-  };
-  double sum = 0;
-  for (int i = first; i <= last; ++i) sum += (gray(i) - gray(last)) / (gray(first) - gray(last));
-  return first - 0.5 + sum;
+// Inverse of the normal distribution function, by bisection.
+double Probit(double share) {
+  double low = -8, high = 8;
+  for (int i = 0; i < 50; ++i) {
+    const double middle = 0.5 * (low + high);
+    (0.5 * std::erfc(-middle / std::numbers::sqrt2) < share ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
 }
 
-// Checks the edge from the saddle along the plate's direction `along`, near 0.75 mm from it.
+// Where the profile of an edge crosses one half, near the middle of `profile`: the probits of its
+// inner levels lie on a line for a Gaussian blur and on a smooth curve for one that changes along
+// the profile; the root of the parabola through them.
+double CrossingOf(const std::vector<double>& profile) {
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d right = Eigen::Vector3d::Zero();
+  const double middle = 0.5 * static_cast<double>(profile.size() - 1);
+  for (std::size_t i = 0; i < profile.size(); ++i) {
+    const double share = (profile[i] - profile.front()) / (profile.back() - profile.front());
+    if (share < 0.02 || share > 0.98) continue;
+    const double x = static_cast<double>(i) - middle;
+    const Eigen::Vector3d powers(1, x, x * x);
+    normal += powers * powers.transpose();
+    right += powers * Probit(share);
+  }
+  const Eigen::Vector3d c = normal.ldlt().solve(right);
+  double root = -c[0] / c[1];
+  for (int i = 0; i < 5; ++i)
+    root -= (c[0] + root * (c[1] + root * c[2])) / (c[1] + 2 * root * c[2]);
+  return middle + root;
+}
+
+// Checks the edge from the saddle along the plate's direction `along`, `mm` away from the saddle,
+// on the row or column that crosses it there.
 void ExpectEdgeExact(const VirtualInstrument& instrument, const PlatePose& pose,
-                     const GrayImage& image, const Eigen::Vector3d& along) {
-  const TelecentricView& view = instrument.views[0].view;
-  const auto pixel_of = [&](double mm) {
-    return Project(instrument.lens, view, pose.InArray(mm * along));
+                     const GrayImage& image, const Eigen::Vector3d& along, double mm) {
+  const auto pixel_of = [&](double place_mm) {
+    return instrument.Project(instrument.views[0], pose.InArray(place_mm * along));
   };
-  const Eigen::Vector2d step = pixel_of(0.8) - pixel_of(0.7);
+  const Eigen::Vector2d step = pixel_of(mm + 0.1) - pixel_of(mm - 0.1);
   const bool along_row = std::abs(step.y()) > std::abs(step.x());
   const int other = along_row ? 1 : 0, axis = 1 - other;
-  const int fixed = static_cast<int>(std::lround(pixel_of(0.75)[other]));
-  double mm = 0.75;  // where the edge crosses that row or column
+  const int fixed = static_cast<int>(std::lround(pixel_of(mm)[other]));
   for (int i = 0; i < 10; ++i)
     mm += (fixed - pixel_of(mm)[other]) / (pixel_of(mm + 0.5)[other] - pixel_of(mm - 0.5)[other]);
   const double expected = pixel_of(mm)[axis];
-  const int middle = static_cast<int>(std::lround(expected));
-  const double found = EdgePlace(image, along_row, fixed, middle - 12, middle + 12);
-  EXPECT_NEAR(found, expected, 1e-3) << "edge along " << along.transpose();
+  const int first = static_cast<int>(std::lround(expected)) - kHalfProfile_px;
+  std::vector<double> profile;
+  for (int i = first; i <= first + 2 * kHalfProfile_px; ++i)
+    profile.push_back(along_row ? image.At(i, fixed) : image.At(fixed, i));
+  EXPECT_NEAR(first + CrossingOf(profile), expected, 1e-3)
+      << "edge along " << along.transpose() << " at " << mm << " mm";
 }
 
-TEST(PlateImage, EdgesLieWhereTheModelPutsThemAtEveryAngle) {
-  for (const double distortion : {0.0, 1e-3}) {
-    const VirtualInstrument instrument = OneView(distortion);
-    for (const double angle_deg : {0.0, 7.0, 23.0, 45.0, 71.0, 90.0}) {
-      SCOPED_TRACE("angle " + std::to_string(angle_deg));
-      const PlatePose pose = PoseTurnedBy(angle_deg);
-      const GrayImage image = RenderPlate(instrument, LargeCross(), pose, 1);
-      for (const Eigen::Vector3d& along : {Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(-1, 0, 0),
-                                           Eigen::Vector3d(0, 1, 0), Eigen::Vector3d(0, -1, 0)})
-        ExpectEdgeExact(instrument, pose, image, along);
-    }
+struct Optics {
+  const char* name;
+  double distortion_per_mm2, pupil_sigma, telecentricity_per_mm;
+  Eigen::Vector3d vibration_in_array_mm;
+};
+
+class PlateImageOf : public testing::TestWithParam<Optics> {};
+
+TEST_P(PlateImageOf, EdgesLieWhereTheModelPutsThemAtEveryAngle) {
+  VirtualInstrument instrument = OneView(GetParam().distortion_per_mm2);
+  instrument.pupil_sigma = GetParam().pupil_sigma;
+  instrument.telecentricity_per_mm = GetParam().telecentricity_per_mm;
+  instrument.vibration_in_array_mm = GetParam().vibration_in_array_mm;
+  std::vector<double> angles_deg{45, 90};
+  for (int i = 0; i < 18; ++i) angles_deg.push_back(5.1 * i);
+  for (const double angle_deg : angles_deg) {
+    SCOPED_TRACE("angle " + std::to_string(angle_deg));
+    PlatePose pose = PoseTurnedBy(angle_deg);
+    pose.origin_in_array_mm += 1.5 * instrument.views[0].viewing_direction;  // out of focus
+    const GrayImage image = RenderPlate(instrument, LargeCross(), pose, 2);
+    for (const Eigen::Vector3d& along : {Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(-1, 0, 0),
+                                         Eigen::Vector3d(0, 1, 0), Eigen::Vector3d(0, -1, 0)})
+      for (double mm = 0.6; mm < 0.95; mm += 0.05)
+        ExpectEdgeExact(instrument, pose, image, along, mm);
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(Optics, PlateImageOf,
+                         testing::Values(Optics{"Plain", 0, 0, 0, {0, 0, 0}},
+                                         Optics{"Distorted", 1e-3, 0, 0, {0, 0, 0}},
+                                         Optics{"Defocused", 0, 0.012, 0, {0, 0, 0}},
+                                         Optics{"DefocusedAndDistorted", 1e-3, 0.012, 0, {0, 0, 0}},
+                                         Optics{"Leaning", 1e-3, 0.012, 0.01, {0, 0, 0}},
+                                         Optics{"Vibrating", 0, 0, 0, {0.02, 0.01, 0.01}}),
+                         [](const auto& test) { return test.param.name; });
 
 // One Newton step from `pixel` to the saddle, with symmetric differences over one pixel.
 Eigen::Vector2d StepToSaddle(const GrayImage& image, const Eigen::Vector2i& pixel) {
@@ -105,69 +151,82 @@ Eigen::Vector2d StepToSaddle(const GrayImage& image, const Eigen::Vector2i& pixe
 TEST(PlateImage, SaddlesLieWhereTheModelPutsThem) {
   VirtualInstrument instrument = OneView(1e-3);
   instrument.views[0].illumination_slope = {0.06, -0.04};
-  const TelecentricView& view = instrument.views[0].view;
   for (const double angle_deg : {0.0, 10.0, 33.0, 45.0, 80.0}) {
     PlatePose pose = PoseTurnedBy(angle_deg);
     // Moves the saddle onto the middle of a pixel, where symmetric differences see its symmetry.
     const Eigen::Vector2d ideal_mm = instrument.lens.IdealFromPixel({90, 120});
-    pose.origin_in_array_mm = view.PointOnRay(ideal_mm);
+    pose.origin_in_array_mm = instrument.RayOf(instrument.views[0], ideal_mm).point_in_array_mm;
     const GrayImage image = RenderPlate(instrument, LargeCross(), pose, 1);
+    // The slope of the light moves the saddle of the grey levels itself by some 1e-3 px.
     EXPECT_LT(StepToSaddle(image, {90, 120}).norm(), 0.002) << angle_deg;
   }
 }
 
-// The pattern's mean over the blur by brute force, on a grid of +-6 sigma.
-double BrightnessByQuadrature(const Eigen::Vector2d& point, const Eigen::Matrix2d& cov) {
-  const Eigen::Matrix2d root = cov.llt().matrixL();
-  constexpr int kSteps = 600;
-  constexpr double kHalf = 6;
-  double sum = 0, weights = 0;
-  for (int i = 0; i < kSteps; ++i)
-    for (int j = 0; j < kSteps; ++j) {
-      const Eigen::Vector2d z(kHalf * ((2.0 * i + 1) / kSteps - 1),
-                              kHalf * ((2.0 * j + 1) / kSteps - 1));
-      const Eigen::Vector2d p = point + root * z;
-      const int column = static_cast<int>(std::floor(p.x() + 2));  // 4 x 3 squares of 1 mm
-      const int row = static_cast<int>(std::floor(p.y() + 1.5));
-      const bool dark = column >= 0 && column < 4 && row >= 0 && row < 3 && (column + row) % 2 == 0;
-      const double weight = std::exp(-z.squaredNorm() / 2);
-      sum += weight * (dark ? 0 : 1);
-      weights += weight;
-    }
-  return sum / weights;
+TEST(PlateImage, ShowsCornersWhereTheProjectionPutsThemThroughLeaningRays) {
+  VirtualInstrument instrument = OneView(1e-3);
+  instrument.telecentricity_per_mm = 0.01;
+  const InstrumentView& view = instrument.views[0];
+  for (const double depth_mm : {-1.5, 0.7, 1.5}) {
+    PlatePose pose = PoseTurnedBy(25);
+    const ChiefRay ray = instrument.RayOf(view, instrument.lens.IdealFromPixel({30, 160}));
+    pose.origin_in_array_mm = ray.point_in_array_mm + depth_mm * ray.direction_in_array;
+    const Eigen::Vector2d truth_px = instrument.Project(view, pose.origin_in_array_mm);
+    EXPECT_LT((truth_px - Eigen::Vector2d(30, 160)).norm(), 1e-9);  // Newton's 1e-13 mm, rounding
+    EXPECT_NEAR(view.BeyondFocus_mm(pose.origin_in_array_mm), depth_mm, 1e-12);
+    // 1 % per mm moves this corner by about 1.5 px.
+    EXPECT_GT((Project(instrument.lens, view.view, pose.origin_in_array_mm) - truth_px).norm(),
+              0.5);
+    const GrayImage image = RenderPlate(instrument, LargeCross(), pose, 1);
+    EXPECT_LT(StepToSaddle(image, {30, 160}).norm(), 1e-3) << depth_mm;
+  }
 }
 
-TEST(BlurredCheckerboard, AgreesWithQuadratureAtSaddlesEdgesAndBorders) {
-  Eigen::Matrix2d cov;
-  cov << 0.0064, 0.0035, 0.0035, 0.0049;  // sigma 0.08 and 0.07 mm, correlation 0.62
-  const BlurredCheckerboard board(3, 2, 1.0, cov);
-  for (const auto& [x, y] : {std::pair{0.03, 0.51},
-                             {-0.05, 0.45},
-                             {1.97, 1.46},
-                             {-2.05, -1.52},
-                             {0.5, 0.52},
-                             {2.04, 0.1},
-                             {0.98, -1.55},
-                             {1.02, -0.47}})
-    // The quadrature's error: jumps between nodes 0.02 sigma apart.
-    EXPECT_NEAR(board.Brightness({x, y}), BrightnessByQuadrature({x, y}, cov), 2e-3)
-        << x << ' ' << y;
+TEST(PlateImage, InvertedIsTheSamePlateInTheOtherTone) {
+  const VirtualInstrument instrument = OneView(1e-3);
+  const PlatePose pose = PoseTurnedBy(12);
+  const GrayImage image = RenderPlate(instrument, LargeCross(), pose, 1);
+  const GrayImage inverted =
+      RenderPlate(instrument, LargeCross(), pose, 1, PlateTone::kBrightSquares);
+  // Only the plate is in this image, so the two tones add up to their sum; float rounding.
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x)
+      ASSERT_NEAR(image.At(x, y) + inverted.At(x, y), 30 + 220, 1e-4);
 }
 
-TEST(BlurredCheckerboard, IsDarkInItsFirstAndLastSquareAndBrightAround) {
-  const BlurredCheckerboard board(13, 9, 0.3, 1e-4 * Eigen::Matrix2d::Identity());
-  EXPECT_NEAR(board.Brightness({-1.95, -1.35}), 0, 1e-9);
-  EXPECT_NEAR(board.Brightness({1.95, 1.35}), 0, 1e-9);
-  EXPECT_NEAR(board.Brightness({-1.65, -1.35}), 1, 1e-9);
-  EXPECT_NEAR(board.Brightness({-2.4, -1.35}), 1, 1e-9);
-  EXPECT_NEAR(board.Brightness({0, 3}), 1, 1e-9);
-  EXPECT_NEAR(board.Brightness({0, 0}), 0.5, 1e-9);
+TEST(PlateImage, VibrationBlursAcrossItsDirectionOnly) {
+  VirtualInstrument instrument = OneView(0);
+  const TelecentricView& view = instrument.views[0].view;
+  PlatePose facing{view.Rotation().transpose(), {0, 0, 0}};
+  const GrayImage still = RenderPlate(instrument, LargeCross(), facing, 1);
+  instrument.vibration_in_array_mm = view.axes_in_array.row(0).transpose() * 2.0 / 60;  // 2 px
+  const GrayImage moving = RenderPlate(instrument, LargeCross(), facing, 1);
+  // The edge's slope in its middle is contrast / (sqrt(2 pi) sigma); over one pixel, less by
+  // 1 / (24 sigma^2): the ratio of both images' slopes.
+  const auto slope = [](const GrayImage& image, int dx, int dy) {
+    const int x = dx == 1 ? 119 : 160, y = dy == 1 ? 99 : 130;
+    return std::abs(static_cast<double>(image.At(x + dx, y + dy) - image.At(x, y)));
+  };
+  const double sigma2 = instrument.blur_sigma_px * instrument.blur_sigma_px;
+  const double expected =
+      std::erf(0.5 / std::sqrt(2 * (sigma2 + 4))) / std::erf(0.5 / std::sqrt(2 * sigma2));
+  EXPECT_NEAR(slope(moving, 1, 0) / slope(still, 1, 0), expected, 1e-4);
+  EXPECT_NEAR(slope(moving, 0, 1) / slope(still, 0, 1), 1, 1e-4);
 }
 
-TEST(MeanSignProduct, HasTheKnownValueAtTheOrigin) {
-  // Sheppard: E[sgn X sgn Y] = 2/pi asin(rho).
-  for (const double rho : {-0.6, -0.1, 0.0, 0.3, 0.7})
-    EXPECT_NEAR(MeanSignProduct(0, 0, rho), 2 / std::numbers::pi * std::asin(rho), 1e-6) << rho;
+TEST(SceneImage, DustDimsTheSamePixelsOfEveryImageByTheSameShare) {
+  VirtualInstrument clean = OneView(0), dusty = clean;
+  dusty.dust = {{{50.3, 80.8}, 9, 0.4}, {{200, 3}, 15, 0.6}};
+  const PlatePose pose = PoseTurnedBy(10), other = PoseTurnedBy(50);
+  const auto share = [&](const PlatePose& at, int x, int y) {
+    return RenderPlate(dusty, LargeCross(), at, 1).At(x, y) /
+           RenderPlate(clean, LargeCross(), at, 1).At(x, y);
+  };
+  for (const auto& [x, y] : {std::pair{50, 81}, {56, 85}, {199, 3}, {190, 10}}) {
+    EXPECT_NEAR(share(pose, x, y), share(other, x, y), 1e-6);
+    EXPECT_LT(share(pose, x, y), 0.999F);
+  }
+  EXPECT_NEAR(share(pose, 50, 81), 0.6, 1e-3);
+  EXPECT_EQ(share(pose, 120, 100), 1);
 }
 
 TEST(IdealOfRow, InvertsTheDistortionAtEveryPixel) {

@@ -9,6 +9,7 @@
 #include "simulation/load_plan.h"
 #include "simulation/nominal_session.h"
 #include "simulation/pipe_image.h"
+#include "simulation/pipe_rays.h"
 
 namespace telestrain {
 namespace {
@@ -24,69 +25,42 @@ DeformedPipe LoadedPipe() {
   return pipe;
 }
 
-TEST(DeformedPipe, MaterialPointsAreStrainedAsAsked) {
-  const DeformedPipe pipe = LoadedPipe();
-  for (const double angle : {-0.5, 0.0, 0.4, std::numbers::pi / 2, std::numbers::pi})
-    for (const double x_mm : {-14.0, 0.0, 13.0}) {
-      const double half_mm = 0.5;
-      const double length_mm = (pipe.InArray(pipe.Material(x_mm + half_mm, angle)) -
-                                pipe.InArray(pipe.Material(x_mm - half_mm, angle)))
-                                   .norm();
-      // The fibre also turns by k s < 1.5e-4, which lengthens it by half the square: 1e-8.
-      EXPECT_NEAR(length_mm - 1, pipe.AxialStrain(angle), 2e-8);
-    }
-}
-
-TEST(DeformedPipe, ContractsAcrossByPoissonsRatio) {
-  DeformedPipe pipe = LoadedPipe();
-  pipe.curvature_per_mm = 0;
-  const Eigen::Vector3d left = pipe.InArray(pipe.Material(5, -std::numbers::pi / 2));
-  const Eigen::Vector3d right = pipe.InArray(pipe.Material(5, std::numbers::pi / 2));
-  EXPECT_NEAR((right - left).norm() / 8 - 1, -0.31 * 750e-6, 1e-12);
-}
-
-TEST(DeformedPipe, RigidMotionCarriesTheReferenceIntoTheState) {
-  const DeformedPipe state = LoadedPipe();
-  DeformedPipe unloaded = state, reference = state;
-  unloaded.membrane_strain = unloaded.curvature_per_mm = 0;
-  reference = unloaded;
-  reference.array_from_pipe = ExpRotation({0.01, 0.02, -0.01});
-  reference.origin_in_array_mm = {0.1, 0.2, -3.9};
-  const Eigen::Vector3d material = state.Material(7, 0.3);
-  const Eigen::Vector3d moved = unloaded.RotationFrom(reference) * reference.InArray(material) +
-                                unloaded.TranslationFrom_mm(reference);
-  EXPECT_LT((moved - unloaded.InArray(material)).norm(), 1e-12);
-}
-
-TEST(StrainOf, GivesMembraneStrainMinusTheBendingOfTheVisibleArc) {
-  DeformedPipe state = LoadedPipe();
-  DeformedPipe reference = state;
-  reference.membrane_strain = reference.curvature_per_mm = 0;
-  const TrueStrain strain = StrainOf(state, reference, -13.85, 13.85);
-  const double arc = 32 * std::numbers::pi / 180;
-  const double expected = 750e-6 - 40e-6 * std::sin(arc) / arc;
-  EXPECT_NEAR(strain.long_base, expected, 1e-9);  // midpoint rule on 64 arcs
-  EXPECT_NEAR(strain.local_a, expected, 1e-9);
-  EXPECT_NEAR(strain.local_b, expected, 1e-9);
-  EXPECT_NEAR(StrainOf(reference, reference, -13.85, 13.85).long_base, 0, 1e-12);
-}
-
 TEST(PipeRays, FindTheSameMaterialPointInBothViews) {
   const VirtualExperimentOptions options;
   const VirtualInstrument instrument = MakeInstrument(options, NominalSession(options));
   const DeformedPipe pipe = LoadedPipe();
   for (const InstrumentView& view : instrument.views) {
     const double x_mm = view.view.group == "A" ? -13.2 : 14.5;
-    const PipeRays rays(pipe, view.viewing_direction);
+    const PipeRays rays(pipe);
     for (const double angle : {-0.3, 0.0, 0.25}) {
       const Eigen::Vector3d material = pipe.Material(x_mm, angle);
       const Eigen::Vector2d pixel = Project(instrument.lens, view.view, pipe.InArray(material));
-      const Eigen::Vector3d on_ray = view.view.PointOnRay(instrument.lens.IdealFromPixel(pixel));
-      Eigen::Vector3d displacement = Eigen::Vector3d::Zero();
-      const SurfaceHit hit = rays.Hit(on_ray, displacement);
+      const ChiefRay ray = instrument.RayOf(view, instrument.lens.IdealFromPixel(pixel));
+      const SurfaceHit hit = rays.Hit(ray, {});
       EXPECT_LT((hit.material_mm - material).norm(), 1e-9) << view.view.name << ' ' << angle;
       EXPECT_LT(hit.miss_mm, 0);
     }
+  }
+}
+
+TEST(PipeRays, FindMaterialPointsOfBentTwistedPipesThroughLeaningRays) {
+  VirtualExperimentOptions options;
+  options.telecentricity_percent_per_mm = 0.5;
+  const VirtualInstrument instrument = MakeInstrument(options, NominalSession(options));
+  for (const double bend_radius_mm : {100.0, -100.0, 2000.0}) {
+    DeformedPipe pipe = LoadedPipe();
+    pipe.bend_radius_mm = bend_radius_mm;
+    pipe.twist_rad_per_mm = 1e-3 / 4;
+    pipe.thermal_strain = 2e-4;
+    const PipeRays rays(pipe);
+    for (const InstrumentView& view : instrument.views)
+      for (const double angle : {-0.5, 0.0, 0.4}) {
+        const double x_mm = view.center_in_array_mm.x() + angle;
+        const Eigen::Vector3d material = pipe.Material(x_mm, angle);
+        const Eigen::Vector2d ideal_mm = instrument.Ideal(view, pipe.InArray(material));
+        const SurfaceHit hit = rays.Hit(instrument.RayOf(view, ideal_mm), {});
+        EXPECT_LT((hit.material_mm - material).norm(), 1e-9) << view.view.name << ' ' << angle;
+      }
   }
 }
 
@@ -94,22 +68,22 @@ TEST(PipeRays, TellRaysThatMiss) {
   DeformedPipe pipe = LoadedPipe();
   pipe.membrane_strain = pipe.curvature_per_mm = 0;
   pipe.array_from_pipe.setIdentity();
-  const PipeRays rays(pipe, {0, 0, -1});
-  Eigen::Vector3d displacement = Eigen::Vector3d::Zero();
-  const SurfaceHit hit =
-      rays.Hit(pipe.origin_in_array_mm + Eigen::Vector3d(0, 4.1, 0), displacement);
+  const Eigen::Vector3d beside = pipe.origin_in_array_mm + Eigen::Vector3d(0, 4.1, 0);
+  const SurfaceHit hit = PipeRays(pipe).Hit({beside, {0, 0, -1}}, {});
   EXPECT_NEAR(hit.miss_mm, 0.1, 1e-12);
   EXPECT_NEAR(hit.cos_incidence, 0, 1e-12);
 }
 
+Eigen::Matrix2d Round(double sigma_mm) { return sigma_mm * sigma_mm * Eigen::Matrix2d::Identity(); }
+
 TEST(SpecklePattern, CoversHalfOfTheSurfaceWhateverThePatch) {
   const SurfacePatch wide{{-1, -1}, {1, 1}}, narrow{{-0.2, -0.3}, {0.3, 0.1}};
-  const SpecklePattern whole(5, wide, 0.033, 0.0037), part(5, narrow, 0.033, 0.0037);
+  const SpecklePattern whole(5, wide, 0.033), part(5, narrow, 0.033);
   double sum = 0;
   int count = 0;
   for (double y = -0.95; y < 0.95; y += 0.0137)
     for (double x = -0.95; x < 0.95; x += 0.0137, ++count) {
-      const double paint = whole.Paint({x, y}, 1);
+      const double paint = whole.Paint({x, y}, Round(0.0037));
       ASSERT_GE(paint, 0);
       ASSERT_LE(paint, 1);
       sum += paint;
@@ -118,7 +92,42 @@ TEST(SpecklePattern, CoversHalfOfTheSurfaceWhateverThePatch) {
   EXPECT_NEAR(sum / count, 0.5, 0.04);
   for (double y = -0.29; y < 0.09; y += 0.0173)
     for (double x = -0.19; x < 0.29; x += 0.0173)
-      EXPECT_NEAR(part.Paint({x, y}, 1.7), whole.Paint({x, y}, 1.7), 1e-12);
+      EXPECT_NEAR(part.Paint({x, y}, Round(0.006)), whole.Paint({x, y}, Round(0.006)), 1e-12);
+}
+
+TEST(SpecklePattern, BlursDiscsAlongTheMotionOnly) {
+  const SpecklePattern pattern(3, {{0, 0}, {1, 1}}, 0.05);
+  Eigen::Matrix2d cov;
+  cov << 0.0075 * 0.0075, 0, 0, 0.00125 * 0.00125;
+  double along = 0, across = 0;
+  for (double y = 0.1; y < 0.9; y += 0.0031)
+    for (double x = 0.1; x < 0.9; x += 0.0031) {
+      const double paint = pattern.Paint({x, y}, cov);
+      along += std::pow(pattern.Paint({x + 0.00025, y}, cov) - paint, 2);
+      across += std::pow(pattern.Paint({x, y + 0.00025}, cov) - paint, 2);
+    }
+  // Squared slopes of an edge add up to n_x^2 / sigma and n_y^2 / sigma, sigma = |(6 n_x, n_y)|:
+  // over all directions 0.44 to 1, here of some 200 discs.
+  EXPECT_LT(along, 0.6 * across);
+}
+
+TEST(SpecklePattern, LosesContrastWhenTheBlurIsWiderThanItsDiscs) {
+  const SpecklePattern pattern(5, {{-1, -1}, {1, 1}}, 0.033);
+  const auto spread = [&](double sigma_mm) {
+    double sum = 0, squares = 0;
+    int count = 0;
+    for (double y = -0.9; y < 0.9; y += 0.0137)
+      for (double x = -0.9; x < 0.9; x += 0.0137, ++count) {
+        const double paint = pattern.Paint({x, y}, Round(sigma_mm));
+        sum += paint;
+        squares += paint * paint;
+      }
+    return std::sqrt(squares / count - sum * sum / count / count);
+  };
+  EXPECT_GT(spread(0.002), 0.42);  // sharp: 0.5 but for the edges
+  // Area weights of a Gaussian: n = 800 discs/mm^2 of a = 8.6e-4 mm^2 each give the variance
+  // n a^2 / (4 pi sigma^2 + 2 a) of the coverage, a quarter of it where half is covered already.
+  EXPECT_NEAR(spread(0.03), 0.5 * std::sqrt(800 * 8.6e-4 * 8.6e-4 / (0.0113 + 0.0017)), 0.03);
 }
 
 TEST(PipeImage, ShowsAMaterialPointWithTheSamePaintInEveryState) {

@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
-
-#include "simulation/sensor_readout.h"
+#include <vector>
 
 namespace telestrain {
 namespace {
@@ -62,33 +62,16 @@ TEST(RandomStream, KeysAndCountersMatter) {
   EXPECT_EQ(NormalPair(1, 5)[0], NormalPair(1, 5)[0]);
 }
 
-GrayImage Flat(float gray) { return {500, 401, 255, std::vector<float>(500 * 401, gray)}; }
-
-void ExpectNoise(const GrayImage& image, double mean_level, double sd_levels) {
-  double sum = 0, squares = 0;
-  for (const float level : image.pixels) {
-    sum += level - mean_level;
-    squares += (level - mean_level) * (level - mean_level);
-  }
-  const auto n = static_cast<double>(image.pixels.size());
-  const double mean = sum / n;
-  EXPECT_NEAR(mean, 0, 4 * sd_levels / std::sqrt(n));
-  EXPECT_NEAR(std::sqrt(squares / n - mean * mean), sd_levels, 4 * sd_levels / std::sqrt(2 * n));
-}
-
-TEST(ReadOut, NoiseAndQuantisationAddUpToTheWantedNoise) {
-  ExpectNoise(ReadOut(Flat(100.3F), 1.5, 8, 42), 100.3F, 1.5);
-  ExpectNoise(ReadOut(Flat(37.8F), 0.8, 8, 42), 37.8F, 0.8);
-  ExpectNoise(ReadOut(Flat(100.3F), 1.5, 16, 42), 257 * double(100.3F), 257 * 1.5);
-}
-
-TEST(ReadOut, WithoutNoiseRoundsAndClips) {
-  EXPECT_EQ(ReadOut(Flat(100.3F), 0, 8, 1).At(3, 4), 100);
-  EXPECT_EQ(ReadOut(Flat(100.5F), 0, 8, 1).At(3, 4), 101);
-  EXPECT_EQ(ReadOut(Flat(300), 0, 8, 1).At(3, 4), 255);
-  EXPECT_EQ(ReadOut(Flat(-5), 0, 8, 1).At(3, 4), 0);
-  EXPECT_EQ(ReadOut(Flat(100), 0, 16, 1).At(3, 4), 25700);
-  EXPECT_EQ(ReadOut(Flat(100), 0, 16, 1).max_gray, 65535);
+TEST(RandomStream, NormalDeviatesFollowTheNormalDistribution) {
+  std::vector<double> deviates;
+  for (int i = 0; i < kMany / 2; ++i)
+    for (const double deviate : NormalPair(9, i)) deviates.push_back(deviate);
+  std::sort(deviates.begin(), deviates.end());
+  double largest = 0;
+  for (std::size_t i = 0; i < deviates.size(); ++i)
+    largest = std::max(largest, std::abs(0.5 * std::erfc(-deviates[i] / std::sqrt(2.0)) -
+                                         (static_cast<double>(i) + 0.5) / kMany));
+  EXPECT_LT(largest, 1.95 / std::sqrt(kMany));  // Kolmogorov-Smirnov, 0.1 %
 }
 
 }  // namespace

@@ -144,6 +144,38 @@ TEST_F(VirtualExperiment, WritesSixteenBitImages) {
   EXPECT_EQ(png[25], 0);   // grey
 }
 
+TEST_F(VirtualExperiment, WritesEveryEffectAtOnce) {
+  VirtualExperimentOptions options = SmallExperiment();
+  options.bit_depth = 12;
+  options.full_well_electrons = 10000;
+  options.exposure = 1.2;
+  options.dust_specks = 20;
+  options.inverted = true;
+  options.numerical_aperture = 0.02;
+  options.vibration_um = 1;
+  options.telecentricity_percent_per_mm = 0.1;
+  options.mirror_error_mrad = 0.5;
+  options.mirror_error_um = 10;
+  options.warmup_drift_um = 5;
+  options.pipe_bend_radius_mm = 200;
+  options.torsion_max_microstrain = 300;
+  options.pressure_max_mpa = 10;
+  options.temperature_change_k = 10;
+  options.image_interval_s = 5;
+  const Status written = Write(options, "session");
+  ASSERT_TRUE(written.ok()) << written.error().message;
+  const auto session = ReadSession(root_ / "session");
+  ASSERT_TRUE(session.ok()) << session.error().message;
+  EXPECT_EQ(session->pipe_states[2].time_s, 10);
+  const auto state = Truth("session")["pipe"][1];  // the full load
+  // The inside of the bent axis is shorter: 1 - z / 200 mm, z = 3.8 mm on the visible arc.
+  EXPECT_NEAR(state["shear_microstrain"].get<double>(), 300 / (1 - 3.8 / 200), 1);
+  // p a^2 / (b^2 - a^2) (2 - n) / E, expansion and Poisson's contraction; to 1 % of the largest
+  // (bending and the bent axis).
+  const double hoop = 10 * 11.56 / 4.44 / 106e3 * 1.69e6 + 86 - 0.31 * 750;
+  EXPECT_NEAR(state["hoop_microstrain"].get<double>(), hoop, 7.5);
+}
+
 TEST_F(VirtualExperiment, RefusesToOverwriteASession) {
   ASSERT_TRUE(Write(SmallExperiment(), "session").ok());
   const Status again = Write(SmallExperiment(), "session");
@@ -168,7 +200,10 @@ TEST(VirtualExperimentOptions, RefusesValuesOutsideTheirRange) {
   refused(&Options::noise_gray, 99.0, "noise_gray is 99 gray, wanted 0 to 20 gray");
   refused(&Options::noise_gray, std::nan(""), "noise_gray is nan");
   refused(&Options::poses, 2, "poses is 2, wanted 3 to 5000");
-  refused(&Options::bit_depth, 12, "bit_depth is 12, wanted 8 or 16");
+  refused(&Options::bit_depth, 14, "bit_depth is 14, wanted 8, 10, 12 or 16");
+  refused(&Options::numerical_aperture, 0.004, "numerical_aperture is 0.004, wanted 0, or 0.005");
+  refused(&Options::pipe_bend_radius_mm, -50.0, "pipe_bend_radius_mm is -50 mm, wanted 0, or 100");
+  refused(&Options::wall_thickness_mm, 4.0, "wall_thickness_mm is 4 mm, wanted less than half");
   refused(&Options::binning, 5, "binning is 5, wanted 1 to 4");
   refused(&Options::cut_off_poses, 10, "cut_off_poses is 10, wanted at most poses - 3 = 9");
   refused(&Options::load_cycles, 3, "load_cycles is 3");
