@@ -14,8 +14,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Half the epipolar error of a cross beyond which one of its views saw something else.
+// Half the epipolar error of a cross beyond which one of its views saw something else: this, or as
+// many standard deviations of the cross where those are larger (the residual's own is 1 / sqrt 2 of
+// a cross's).
 constexpr double kMaxResidual_px = 0.5;
+constexpr double kMaxResidual_sigmas = 4;
 
 // What the views of one group measured of one cross.
 struct RulerEnd {
@@ -39,6 +42,22 @@ RulerEnd CollectEnd(const Session& session, const std::vector<CrossObservation>&
                      (at == crosses.end() ? "not searched" : at->rejected_because);
   }
   return end;
+}
+
+double AllowedResidual_px(const RulerEnd& end) {
+  double allowed_px = kMaxResidual_px;
+  for (const ViewMeasurement& measurement : end.measurements)
+    allowed_px = std::max(
+        allowed_px, kMaxResidual_sigmas * std::sqrt(0.5 * measurement.covariance_px2.trace()));
+  return allowed_px;
+}
+
+// Why an end is not measured; empty when it is.
+std::string DisagreementOf(const RulerEnd& end, const TriangulatedPoint& point) {
+  const double allowed_px = AllowedResidual_px(end);
+  if (point.residual_px <= allowed_px) return "";
+  return "the views do not agree on a cross: " + FormatFixed(point.residual_px, 2) +
+         " px off the epipolar line, " + FormatFixed(allowed_px, 2) + " px allowed";
 }
 
 double Length_mm(const ArrayCalibration& array, const RulerEnd& a, const RulerEnd& b) {
@@ -98,12 +117,9 @@ RulerLength MeasureOne(const Session& session, const ArrayCalibration& array,
   length.end_a_in_array_mm = end_a.in_array_mm;
   length.end_b_in_array_mm = end_b.in_array_mm;
   length.residual_px = std::max(end_a.residual_px, end_b.residual_px);
-  if (length.residual_px > kMaxResidual_px) {
-    length.rejected_because =
-        "the views do not agree on a cross: " + FormatFixed(length.residual_px, 2) +
-        " px off the epipolar line, " + FormatFixed(kMaxResidual_px, 2) + " px allowed";
-    return length;
-  }
+  length.rejected_because = DisagreementOf(a, end_a);
+  if (length.rejected_because.empty()) length.rejected_because = DisagreementOf(b, end_b);
+  if (!length.rejected_because.empty()) return length;
   length.length_mm = (end_b.in_array_mm - end_a.in_array_mm).norm();
   length.error_um = 1000 * (length.length_mm - session.ruler.length_mm);
   length.budget = Budget_um(session, array, a, b);

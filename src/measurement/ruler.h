@@ -35,7 +35,8 @@ struct RulerSummary {
 };
 
 // Lengths from the crosses of all ruler images, in the order of the session (MODEL.md Eq. 14). An
-// image whose cross is missing in more views than leave two per group is rejected with the reason.
+// image whose cross is missing in more views than leave two per group is rejected with the reason,
+// and one whose views disagree on a cross by more than 0.5 px or four of its standard deviations.
 std::vector<RulerLength> MeasureRuler(const Session& session, const ArrayCalibration& array,
                                       const std::vector<CrossObservation>& crosses);
 

@@ -75,6 +75,28 @@ TEST(Ruler, CertificatesEnterTheBudget) {
   EXPECT_NEAR(lengths[0].standard_uncertainty_um, std::hypot(0.25, 0.3), 0.02);
 }
 
+TEST(Ruler, NoisyCrossesAreMeasuredAndForeignOnesAreRejected) {
+  SyntheticArray array = MakeSyntheticArray({});
+  const auto calibration = Calibrate(array.session, array.boards);
+  ASSERT_TRUE(calibration.ok());
+  Random random(5);
+  std::vector<CrossObservation> crosses;
+  constexpr int kCount = 100;
+  for (int i = 0; i < kCount; ++i)
+    AddRuler(array, "ruler_" + std::to_string(i), 27.6, 0.78, random, crosses);
+  // 4 sigma of a cross are 5.7 of its residual: none of 200 ends is rejected by chance.
+  for (const auto& length : MeasureRuler(array.session, calibration->bundle.state.array, crosses))
+    EXPECT_EQ(length.rejected_because, "");
+  // A noisy end does not excuse a foreign cross at the other.
+  for (std::size_t view = 0; view < crosses.size(); view += 4) {
+    crosses[view].center->pixel += Eigen::Vector2d(16, 16);
+    for (const std::size_t other : {view + 2, view + 3})
+      crosses[other].center->covariance_px2 = 9 * Eigen::Matrix2d::Identity();
+  }
+  for (const auto& length : MeasureRuler(array.session, calibration->bundle.state.array, crosses))
+    EXPECT_NE(length.rejected_because.find("do not agree"), std::string::npos);
+}
+
 TEST(Ruler, AMissingCrossIsARejectionWithItsReason) {
   SyntheticArray array = MakeSyntheticArray({});
   const auto calibration = Calibrate(array.session, array.boards);
