@@ -34,10 +34,12 @@ struct TextStyle {
   double LineHeight_pt() const { return 1.32 * size_pt; }
 };
 
+enum class Dash { kSolid, kDashed, kDotted, kDashDot, kLong };
+
 struct Stroke {
   Color color;
   double width_pt = 0.5;
-  bool dashed = false;
+  Dash dash = Dash::kSolid;
 };
 
 }  // namespace telestrain

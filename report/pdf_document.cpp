@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <map>
 
 #include "base/files.h"
 #include "report/pdf_font.h"
@@ -148,11 +149,17 @@ std::vector<PdfDocument::Internals::Run> PdfDocument::Internals::Runs(Face face,
 }
 
 void PdfDocument::Internals::SetStroke(const Stroke& stroke) {
-  static const HPDF_UINT16 kDash[] = {4, 3};
+  static const std::map<Dash, std::vector<HPDF_UINT16>> kPatterns = {{Dash::kSolid, {}},
+                                                                     {Dash::kDashed, {4, 3}},
+                                                                     {Dash::kDotted, {1, 2}},
+                                                                     {Dash::kDashDot, {6, 2, 1, 2}},
+                                                                     {Dash::kLong, {9, 3}}};
   HPDF_Page_SetRGBStroke(page, F(stroke.color.red), F(stroke.color.green), F(stroke.color.blue));
   HPDF_Page_SetLineWidth(page, F(stroke.width_pt));
   HPDF_Page_SetLineJoin(page, HPDF_ROUND_JOIN);
-  HPDF_Page_SetDash(page, stroke.dashed ? kDash : nullptr, stroke.dashed ? 2 : 0, 0);
+  const auto& pattern = kPatterns.at(stroke.dash);
+  HPDF_Page_SetDash(page, pattern.empty() ? nullptr : pattern.data(),
+                    static_cast<HPDF_UINT>(pattern.size()), 0);
 }
 
 void PdfDocument::Internals::MovePath(const std::vector<PagePoint>& points) {

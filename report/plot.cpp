@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/numbers.h"
+#include "report/text_wrap.h"
 
 namespace telestrain {
 namespace {
@@ -12,53 +12,55 @@ constexpr double kTickType_pt = 7.5, kLabelType_pt = 8, kTitleType_pt = 8.5;
 constexpr double kTickSpacingX_pt = 38, kTickSpacingY_pt = 24;  // about; labels stay apart
 constexpr double kTop_pt = 20;                                  // room for the title or the legend
 
-// The smallest of 1, 2, 5 times a power of ten that is not below `step`.
-double RoundStep(double step) {
-  const double power = std::pow(10, std::floor(std::log10(step)));
-  for (const double digit : {1.0, 2.0, 5.0})
-    if (digit * power >= step * (1 - 1e-9)) return digit * power;
-  return 10 * power;
+// A text in the middle of `room_pt`: it shrinks until it fits, and is cut below 5.5 pt.
+void DrawFitted(PdfDocument& pdf, TextStyle style, PagePoint middle, const std::string& text,
+                double room_pt, double rotation_deg = 0) {
+  while (style.size_pt > 5.5 && pdf.TextWidth_pt(style, text) > room_pt) style.size_pt -= 0.25;
+  pdf.DrawText(style, middle, ShortenedText(pdf, style, text, room_pt), Align::kCenter,
+               rotation_deg);
 }
 
 }  // namespace
 
-std::vector<double> Plot::Scale::Ticks() const {
-  std::vector<double> ticks;
-  const auto first = static_cast<long>(std::ceil(low / step - 1e-6));
-  const auto last = static_cast<long>(std::floor(high / step + 1e-6));
-  for (long i = first; i <= last; ++i) ticks.push_back(static_cast<double>(i) * step);
-  return ticks;
-}
-
-Plot::Scale Plot::MakeScale(const PlotAxis& axis, double length_pt, double spacing_pt) {
-  Scale scale{std::min(axis.low, axis.high), std::max(axis.low, axis.high), 1, 0};
-  if (!(scale.high - scale.low > 1e-12 * std::max(1.0, std::abs(scale.high)))) {
-    scale.low -= 1;
-    scale.high += 1;
+void DrawMarkerShape(PdfDocument& pdf, PagePoint p, Marker marker, Color color, double s) {
+  switch (marker) {
+    case Marker::kDot:
+      return pdf.FillCircle(p, s, color);
+    case Marker::kSquare:
+      return pdf.StrokeBox({p.x_pt - s, p.y_pt - s, 2 * s, 2 * s}, {color, 0.9});
+    case Marker::kDiamond:
+      return pdf.FillPolygon({{p.x_pt - 1.3 * s, p.y_pt},
+                              {p.x_pt, p.y_pt - 1.3 * s},
+                              {p.x_pt + 1.3 * s, p.y_pt},
+                              {p.x_pt, p.y_pt + 1.3 * s}},
+                             color);
+    case Marker::kTriangle:
+      return pdf.FillPolygon({{p.x_pt - 1.2 * s, p.y_pt - 0.9 * s},
+                              {p.x_pt + 1.2 * s, p.y_pt - 0.9 * s},
+                              {p.x_pt, p.y_pt + 1.3 * s}},
+                             color);
+    case Marker::kPlus:
+      pdf.DrawLine({p.x_pt - 1.2 * s, p.y_pt}, {p.x_pt + 1.2 * s, p.y_pt}, {color, 1.3});
+      pdf.DrawLine({p.x_pt, p.y_pt - 1.2 * s}, {p.x_pt, p.y_pt + 1.2 * s}, {color, 1.3});
+      return;
+    case Marker::kCross:
+      pdf.DrawLine({p.x_pt - s, p.y_pt - s}, {p.x_pt + s, p.y_pt + s}, {color, 1.3});
+      pdf.DrawLine({p.x_pt - s, p.y_pt + s}, {p.x_pt + s, p.y_pt - s}, {color, 1.3});
   }
-  const double ticks = std::clamp(std::floor(length_pt / spacing_pt), 2.0, 10.0);
-  scale.step = RoundStep((scale.high - scale.low) / ticks);
-  if (axis.whole_numbers) scale.step = std::max(1.0, scale.step);
-  if (axis.widen) {
-    scale.low = scale.step * std::floor(scale.low / scale.step + 1e-9);
-    scale.high = scale.step * std::ceil(scale.high / scale.step - 1e-9);
-  }
-  scale.decimals = std::max(0, static_cast<int>(-std::floor(std::log10(scale.step) + 1e-9)));
-  return scale;
 }
 
 Plot::Plot(PageFlow& flow, const PageBox& outer, const PlotAxis& x, const PlotAxis& y,
            const std::string& title)
     : flow_(flow), pdf_(flow.pdf()), outer_(outer) {
   const TextStyle ticks{Face::kRegular, kTickType_pt, flow.look().ink};
-  y_ = MakeScale(y, outer.height_pt - kTop_pt - 30, kTickSpacingY_pt);
+  y_ = PlotScale(y, outer.height_pt - kTop_pt - 30, kTickSpacingY_pt);
   double tick_pt = 0;
-  for (const double tick : y_.Ticks())
-    tick_pt = std::max(tick_pt, pdf_.TextWidth_pt(ticks, FormatFixed(tick, y_.decimals)));
+  for (const PlotScale::Tick& tick : y_.Ticks())
+    tick_pt = std::max(tick_pt, pdf_.TextWidth_pt(ticks, tick.label));
   const double left_pt = tick_pt + (y.label.empty() ? 8 : 21);
   area_ = {outer.left_pt + left_pt, outer.bottom_pt + 30, outer.width_pt - left_pt - 10,
            outer.height_pt - 30 - kTop_pt};
-  x_ = MakeScale(x, area_.width_pt, kTickSpacingX_pt);
+  x_ = PlotScale(x, area_.width_pt, kTickSpacingX_pt);
   DrawGrid(x, y);
   if (title.empty()) return;
   const TextStyle style{Face::kBold, kTitleType_pt, flow.look().ink};
@@ -66,8 +68,8 @@ Plot::Plot(PageFlow& flow, const PageBox& outer, const PlotAxis& x, const PlotAx
 }
 
 PagePoint Plot::At(double x, double y) const {
-  return {area_.left_pt + area_.width_pt * (x - x_.low) / (x_.high - x_.low),
-          area_.bottom_pt + area_.height_pt * (y - y_.low) / (y_.high - y_.low)};
+  return {area_.left_pt + area_.width_pt * x_.Share(x),
+          area_.bottom_pt + area_.height_pt * y_.Share(y)};
 }
 
 void Plot::DrawGrid(const PlotAxis& x, const PlotAxis& y) {
@@ -75,56 +77,38 @@ void Plot::DrawGrid(const PlotAxis& x, const PlotAxis& y) {
   const TextStyle tick_style{Face::kRegular, kTickType_pt, look.ink};
   const TextStyle label_style{Face::kRegular, kLabelType_pt, look.ink};
   const Stroke grid{look.line, 0.4}, frame{ColorOf(0x404040), 0.7};
-  for (const double tick : x_.Ticks()) {
-    const PagePoint p = At(tick, y_.low);
-    pdf_.DrawLine(p, {p.x_pt, area_.top_pt()}, grid);
-    pdf_.DrawLine(p, {p.x_pt, p.y_pt - 3}, frame);
-    pdf_.DrawText(tick_style, {p.x_pt, p.y_pt - 11}, FormatFixed(tick, x_.decimals),
-                  Align::kCenter);
+  const Stroke minor{look.zebra, 0.4};
+  for (const PlotScale::Tick& tick : x_.Ticks()) {
+    const PagePoint p{area_.left_pt + area_.width_pt * x_.Share(tick.value), area_.bottom_pt};
+    pdf_.DrawLine(p, {p.x_pt, area_.top_pt()}, tick.label.empty() ? minor : grid);
+    pdf_.DrawLine(p, {p.x_pt, p.y_pt - (tick.label.empty() ? 1.5 : 3)}, frame);
+    pdf_.DrawText(tick_style, {p.x_pt, p.y_pt - 11}, tick.label, Align::kCenter);
   }
-  for (const double tick : y_.Ticks()) {
-    const PagePoint p = At(x_.low, tick);
-    pdf_.DrawLine(p, {area_.right_pt(), p.y_pt}, grid);
-    pdf_.DrawLine(p, {p.x_pt - 3, p.y_pt}, frame);
-    pdf_.DrawText(tick_style, {p.x_pt - 5, p.y_pt - 2.6}, FormatFixed(tick, y_.decimals),
-                  Align::kRight);
+  for (const PlotScale::Tick& tick : y_.Ticks()) {
+    const PagePoint p{area_.left_pt, area_.bottom_pt + area_.height_pt * y_.Share(tick.value)};
+    pdf_.DrawLine(p, {area_.right_pt(), p.y_pt}, tick.label.empty() ? minor : grid);
+    pdf_.DrawLine(p, {p.x_pt - (tick.label.empty() ? 1.5 : 3), p.y_pt}, frame);
+    pdf_.DrawText(tick_style, {p.x_pt - 5, p.y_pt - 2.6}, tick.label, Align::kRight);
   }
   pdf_.StrokeBox(area_, frame);
-  pdf_.DrawText(label_style, {area_.left_pt + area_.width_pt / 2, area_.bottom_pt - 24}, x.label,
-                Align::kCenter);
+  DrawFitted(pdf_, label_style, {area_.left_pt + area_.width_pt / 2, area_.bottom_pt - 24}, x.label,
+             area_.width_pt);
   if (!y.label.empty())
-    pdf_.DrawText(label_style, {outer_.left_pt + 8, area_.bottom_pt + area_.height_pt / 2}, y.label,
-                  Align::kCenter, 90);
-}
-
-void Plot::DrawMarkerAt(PagePoint p, Marker marker, Color color, double s) {
-  switch (marker) {
-    case Marker::kDot:
-      return pdf_.FillCircle(p, s, color);
-    case Marker::kSquare:
-      return pdf_.StrokeBox({p.x_pt - s, p.y_pt - s, 2 * s, 2 * s}, {color, 0.9});
-    case Marker::kDiamond:
-      return pdf_.FillPolygon({{p.x_pt - 1.3 * s, p.y_pt},
-                               {p.x_pt, p.y_pt - 1.3 * s},
-                               {p.x_pt + 1.3 * s, p.y_pt},
-                               {p.x_pt, p.y_pt + 1.3 * s}},
-                              color);
-    case Marker::kCross:
-      pdf_.DrawLine({p.x_pt - s, p.y_pt - s}, {p.x_pt + s, p.y_pt + s}, {color, 1.3});
-      pdf_.DrawLine({p.x_pt - s, p.y_pt + s}, {p.x_pt + s, p.y_pt - s}, {color, 1.3});
-  }
+    DrawFitted(pdf_, label_style, {outer_.left_pt + 8, area_.bottom_pt + area_.height_pt / 2},
+               y.label, area_.height_pt, 90);
 }
 
 void Plot::DrawMarker(double x, double y, Marker marker, Color color, double size_pt) {
-  DrawMarkerAt(At(x, y), marker, color, size_pt);
+  DrawMarkerShape(pdf_, At(x, y), marker, color, size_pt);
 }
 
 double Plot::MarkerSize_pt() const {
-  return std::clamp(0.35 * area_.width_pt / (x_.high - x_.low), 0.6, 2.0);
+  return std::clamp(0.35 * area_.width_pt / (x_.high() - x_.low()), 0.6, 2.0);
 }
 
 void Plot::DrawErrorBar(double x, double y, double half_height, Color color, double cap_pt) {
-  const PagePoint low = At(x, y - half_height), high = At(x, y + half_height);
+  const double foot = y_.logarithmic() ? std::max(y - half_height, y_.low()) : y - half_height;
+  const PagePoint low = At(x, foot), high = At(x, y + half_height);
   pdf_.DrawLine(low, high, {color, 0.9});
   for (const PagePoint& end : {low, high})
     pdf_.DrawLine({end.x_pt - cap_pt, end.y_pt}, {end.x_pt + cap_pt, end.y_pt}, {color, 0.9});
@@ -141,14 +125,14 @@ void Plot::DrawCurve(const std::vector<double>& x, const std::vector<double>& y,
 
 void Plot::DrawLimit(double y, const std::string& text) {
   const Color color = flow_.look().fail;
-  const PagePoint left = At(x_.low, y);
-  pdf_.DrawLine(left, {area_.right_pt(), left.y_pt}, {color, 1, true});
+  const PagePoint left = At(x_.low(), y);
+  pdf_.DrawLine(left, {area_.right_pt(), left.y_pt}, {color, 1, Dash::kDashed});
   const TextStyle style{Face::kRegular, kTickType_pt, color};
   pdf_.DrawText(style, {area_.right_pt() - 4, left.y_pt + 3}, text, Align::kRight);
 }
 
 void Plot::DrawBar(double x_low, double x_high, double y, Color color) {
-  const PagePoint low = At(x_low, 0), high = At(x_high, y);
+  const PagePoint low = At(x_low, Baseline()), high = At(x_high, y);
   pdf_.FillBox({low.x_pt, low.y_pt, high.x_pt - low.x_pt, high.y_pt - low.y_pt}, color);
 }
 
@@ -160,7 +144,7 @@ void Plot::DrawLegend(const std::vector<LegendEntry>& entries) {
     if (entry.line)
       pdf_.DrawLine({x_pt, y_pt}, {x_pt + 14, y_pt}, {entry.color, 1.2});
     else
-      DrawMarkerAt({x_pt + 7, y_pt}, entry.marker, entry.color, 2.2);
+      DrawMarkerShape(pdf_, {x_pt + 7, y_pt}, entry.marker, entry.color, 2.2);
     pdf_.DrawText(style, {x_pt + 18, y_pt - 2.6}, entry.text);
     x_pt += 18 + pdf_.TextWidth_pt(style, entry.text) + 14;
   }

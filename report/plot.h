@@ -4,18 +4,15 @@
 #include <vector>
 
 #include "report/page_flow.h"
+#include "report/plot_scale.h"
 
 namespace telestrain {
 
-// One axis: its range is widened to whole steps; ticks stand at round numbers.
-struct PlotAxis {
-  std::string label;
-  double low = 0, high = 1;  // any order is corrected, an empty range is widened
-  bool whole_numbers = false;
-  bool widen = true;  // to whole steps
-};
+enum class Marker { kDot, kSquare, kDiamond, kCross, kTriangle, kPlus };
 
-enum class Marker { kDot, kSquare, kDiamond, kCross };
+// A marker around `center`, about 2 `size_pt` wide.
+void DrawMarkerShape(PdfDocument& pdf, PagePoint center, Marker marker, Color color,
+                     double size_pt);
 
 // A rectangular chart with grid, ticks and labels, drawn as vectors into a box of the page.
 class Plot {
@@ -25,8 +22,10 @@ class Plot {
 
   PagePoint At(double x, double y) const;
   const PageBox& area() const { return area_; }
-  double x_low() const { return x_.low; }
-  double x_high() const { return x_.high; }
+  double x_low() const { return x_.low(); }
+  double x_high() const { return x_.high(); }
+  // Where bars begin: at 0, on a logarithmic axis at its low end.
+  double Baseline() const { return y_.logarithmic() ? y_.low() : 0; }
 
   void DrawMarker(double x, double y, Marker marker, Color color, double size_pt = 2.2);
   void DrawErrorBar(double x, double y, double half_height, Color color, double cap_pt = 2.5);
@@ -47,19 +46,12 @@ class Plot {
   void DrawLegend(const std::vector<LegendEntry>& entries);
 
  private:
-  struct Scale {
-    double low = 0, high = 1, step = 1;
-    int decimals = 0;
-    std::vector<double> Ticks() const;
-  };
-  static Scale MakeScale(const PlotAxis& axis, double length_pt, double spacing_pt);
-  void DrawMarkerAt(PagePoint p, Marker marker, Color color, double size_pt);
   void DrawGrid(const PlotAxis& x, const PlotAxis& y);
 
   PageFlow& flow_;
   PdfDocument& pdf_;
   PageBox outer_, area_;
-  Scale x_, y_;
+  PlotScale x_, y_;
 };
 
 }  // namespace telestrain

@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <map>
 
+#include "report/picture_block.h"
 #include "report/report_charts.h"
 #include "report/table_block.h"
-#include "report/unicode_text.h"
+#include "report/text_wrap.h"
 
 namespace telestrain {
 namespace {
@@ -19,13 +20,14 @@ Color PaleAccent() { return ColorOf(0xC9D6E3); }
 Status DrawTitle(const ReportContext& context, const Json& block) {
   PageFlow& flow = context.flow;
   const TextStyle title{Face::kBold, 20, kWhite}, subtitle{Face::kRegular, 10.5, PaleAccent()};
-  const double right_pt = 52 * kPointsPerMm, left_pt = flow.width_pt() - right_pt - 12;
+  const Json& right = ListAt(block, "/right");
+  const double right_pt = right.empty() ? 0 : 52 * kPointsPerMm;
+  const double left_pt = flow.width_pt() - right_pt - (right.empty() ? 0 : 12);
   const std::string text = context.Fill(block, "text"), below = context.Fill(block, "subtitle");
   double right_height_pt = 0;
   const auto right_style = [&](std::size_t i) {
     return i == 0 ? TextStyle{Face::kBold, 11, kWhite} : TextStyle{Face::kRegular, 9, PaleAccent()};
   };
-  const Json& right = ListAt(block, "/right");
   for (std::size_t i = 0; i < right.size(); ++i)
     right_height_pt += flow.TextHeight_pt(right_style(i), right_pt,
                                           FillIn(right[i].get<std::string>(), context.results));
@@ -136,24 +138,12 @@ Status DrawTableBlock(const ReportContext& context, const Json& block) {
   return {};
 }
 
-void DrawCaption(const ReportContext& context, const Json& block) {
-  context.flow.Advance(4);
-  if (block.contains("caption"))
-    context.flow.Paragraph(context.flow.look().Note(), context.Fill(block, "caption"));
-  context.flow.Advance(10);
-}
-
-double CaptionHeight_pt(const ReportContext& context, const Json& block) {
-  const TextStyle note = context.flow.look().Note();
-  return 14 +
-         context.flow.TextHeight_pt(note, context.flow.width_pt(), context.Fill(block, "caption"));
-}
-
 Status DrawChartBlock(const ReportContext& context, const Json& block) {
   PageFlow& flow = context.flow;
   const Json& names = ListAt(block, "/charts");
+  const std::string caption = context.Fill(block, "caption");
   const double height_pt = *NumberAt(block, "/height_mm") * kPointsPerMm;
-  flow.Require(height_pt + CaptionHeight_pt(context, block));
+  flow.Require(height_pt + CaptionHeight_pt(flow, caption));
   const double gap_pt = 10, count = static_cast<double>(names.size());
   const double width_pt = (flow.width_pt() - gap_pt * (count - 1)) / count;
   double left_pt = flow.left_pt();
@@ -163,28 +153,15 @@ Status DrawChartBlock(const ReportContext& context, const Json& block) {
     left_pt += width_pt + gap_pt;
   }
   flow.Advance(height_pt);
-  DrawCaption(context, block);
+  DrawCaption(flow, caption);
   return {};
 }
 
 Status DrawPicture(const ReportContext& context, const Json& block) {
-  PageFlow& flow = context.flow;
   const auto path = context.folder / "pictures" / TextAt(block, "/file");
   if (!std::filesystem::exists(path)) return DrawOtherwise(context, block);
   TELESTRAIN_ASSIGN_OR_RETURN(const RgbImage image, ReadPng(path));
-  const double caption_pt = CaptionHeight_pt(context, block);
-  double width_pt = image.width_px * kPixel_pt, height_pt = image.height_px * kPixel_pt;
-  // A picture that is too large for the page keeps its shape and gets more than 300 dpi. The
-  // millipoint admits 2008 px, which is 0.01 mm more than 170 mm.
-  const double fit = std::min(
-      {1.0, (flow.width_pt() + 0.1) / width_pt, (flow.PageBody_pt() - caption_pt) / height_pt});
-  width_pt *= fit;
-  height_pt *= fit;
-  flow.Require(height_pt + caption_pt);
-  const double left_pt = flow.left_pt() + (flow.width_pt() - width_pt) / 2;
-  flow.pdf().DrawImage(image, {left_pt, flow.y_pt() - height_pt, width_pt, height_pt});
-  flow.Advance(height_pt);
-  DrawCaption(context, block);
+  DrawPictureBlock(context.flow, image, kPixel_pt, context.Fill(block, "caption"));
   return {};
 }
 
@@ -235,18 +212,6 @@ bool IsWanted(const ReportContext& context, const Json& block) {
   return !block.contains("unless") || !measured("unless");
 }
 
-// The longest beginning of `text` that fits, with an ellipsis when it is not all of it.
-std::string Shortened(PdfDocument& pdf, const TextStyle& style, const std::string& text,
-                      double room_pt) {
-  if (pdf.TextWidth_pt(style, text) <= room_pt) return text;
-  std::string shown;
-  for (const char32_t point : CodePoints(text)) {
-    if (pdf.TextWidth_pt(style, shown + Utf8(point) + "…") > room_pt) break;
-    shown += Utf8(point);
-  }
-  return shown + "…";
-}
-
 // Shrinks a line a little until it fits beside the other one, then shortens it: page 1 has it in
 // full.
 void DrawFrameLine(PageFlow& flow, TextStyle style, double y_pt, const std::string& text,
@@ -255,7 +220,7 @@ void DrawFrameLine(PageFlow& flow, TextStyle style, double y_pt, const std::stri
   while (style.size_pt > 6.5 && flow.pdf().TextWidth_pt(style, text) > room_pt)
     style.size_pt -= 0.25;
   const double x_pt = align == Align::kLeft ? flow.left_pt() : flow.right_pt();
-  flow.pdf().DrawText(style, {x_pt, y_pt}, Shortened(flow.pdf(), style, text, room_pt), align);
+  flow.pdf().DrawText(style, {x_pt, y_pt}, ShortenedText(flow.pdf(), style, text, room_pt), align);
 }
 
 }  // namespace

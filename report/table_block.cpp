@@ -12,7 +12,8 @@ namespace {
 constexpr double kPadding_pt = 4;
 constexpr double kRowGap_pt = 4.2;
 constexpr double kLargestType_pt = 8.5, kSmallestType_pt = 6, kTypeStep_pt = 0.25;
-constexpr double kMonoShare = 0.9;  // the monospaced face looks larger than the text
+constexpr double kUnbroken_pt = 42;  // a shorter text stays on one line: "≤ 0.05"
+constexpr double kMonoShare = 0.9;   // the monospaced face looks larger than the text
 
 struct Column {
   std::string name, unit;
@@ -102,7 +103,7 @@ void TableDrawing::Measure() {
       const Json& cell = row[i];
       const TextStyle style = CellStyle(column, cell);
       const double text_pt = pdf_.TextWidth_pt(style, CellText(cell));
-      const bool breakable = cell.is_string() && !column.mono;
+      const bool breakable = cell.is_string() && !column.mono && text_pt > kUnbroken_pt;
       column.natural_pt = std::max(column.natural_pt, text_pt);
       column.least_pt = std::max(column.least_pt,
                                  breakable ? WidestWord_pt(pdf_, style, CellText(cell)) : text_pt);
@@ -113,11 +114,19 @@ void TableDrawing::Measure() {
 }
 
 void TableDrawing::FitToWidth() {
+  // A long text would leave the other columns one word a line: it asks for this share at most.
+  constexpr double kLongestShare = 0.5;
   double natural_pt = 0, least_pt = 0;
-  for (const Column& column : columns_) {
-    natural_pt += column.natural_pt;
-    least_pt += column.least_pt;
+  for (const Column& column : columns_) natural_pt += column.natural_pt;
+  if (natural_pt > width_pt_) {
+    natural_pt = 0;
+    for (Column& column : columns_) {
+      const double longest_pt = std::max(column.least_pt, kLongestShare * width_pt_);
+      column.natural_pt = std::min(column.natural_pt, longest_pt);
+      natural_pt += column.natural_pt;
+    }
   }
+  for (const Column& column : columns_) least_pt += column.least_pt;
   for (Column& column : columns_) {
     if (natural_pt <= width_pt_) {
       column.width_pt = column.natural_pt * width_pt_ / natural_pt;

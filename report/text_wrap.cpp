@@ -102,4 +102,15 @@ double WidestWord_pt(PdfDocument& pdf, const TextStyle& style, const std::string
   return widest_pt;
 }
 
+std::string ShortenedText(PdfDocument& pdf, const TextStyle& style, const std::string& text,
+                          double room_pt) {
+  if (pdf.TextWidth_pt(style, text) <= room_pt) return text;
+  std::string shown;
+  for (const char32_t point : CodePoints(text)) {
+    if (pdf.TextWidth_pt(style, shown + Utf8(point) + "…") > room_pt) break;
+    shown += Utf8(point);
+  }
+  return shown + "…";
+}
+
 }  // namespace telestrain

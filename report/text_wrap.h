@@ -16,4 +16,8 @@ std::vector<std::string> WrapText(PdfDocument& pdf, const TextStyle& style, cons
 // Width of the widest piece that WrapText does not break unless it must.
 double WidestWord_pt(PdfDocument& pdf, const TextStyle& style, const std::string& text);
 
+// The longest beginning of `text` that fits, with an ellipsis when it is not all of it.
+std::string ShortenedText(PdfDocument& pdf, const TextStyle& style, const std::string& text,
+                          double room_pt);
+
 }  // namespace telestrain
