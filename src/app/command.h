@@ -26,12 +26,14 @@ class Command {
 };
 
 std::unique_ptr<Command> MakeSimulateCommand();
+std::unique_ptr<Command> MakeDesignCommand();
 std::unique_ptr<Command> MakeDetectCommand();
 std::unique_ptr<Command> MakeCalibrateCommand();
 std::unique_ptr<Command> MakeVerifyCommand();
 std::unique_ptr<Command> MakeMeasureCommand();
 std::unique_ptr<Command> MakeRenderCommand();
 std::unique_ptr<Command> MakeReportCommand();
+std::unique_ptr<Command> MakeStudyCommand();
 std::unique_ptr<Command> MakeRunCommand();
 
 // The two folders that most verbs take.

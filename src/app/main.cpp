@@ -36,6 +36,8 @@ std::vector<std::unique_ptr<Command>> AllCommands() {
   commands.push_back(MakeRenderCommand());
   commands.push_back(MakeReportCommand());
   commands.push_back(MakeSimulateCommand());
+  commands.push_back(MakeStudyCommand());
+  commands.push_back(MakeDesignCommand());
   return commands;
 }
 
