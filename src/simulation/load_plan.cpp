@@ -78,7 +78,7 @@ double StrainBetween(const DeformedPipe& state, const DeformedPipe& reference, d
   const Eigen::Vector3d before_mm =
       MeanInPipe_mm(reference, to_mm) - MeanInPipe_mm(reference, from_mm);
   const Eigen::Vector3d after_mm = MeanInPipe_mm(state, to_mm) - MeanInPipe_mm(state, from_mm);
-  return after_mm.dot(before_mm) / before_mm.squaredNorm() - 1;
+  return after_mm.norm() / before_mm.norm() - 1;  // of the material line, as a gauge has it
 }
 
 }  // namespace

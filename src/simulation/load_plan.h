@@ -15,7 +15,8 @@ std::vector<PipeTruth> PlanLoads(const VirtualExperimentOptions& options, const 
 // Strains that an ideal four-view array would report, relative to the reference state, averaged
 // over the arc that both views of a group see (32 deg to either side on 8 mm).
 struct TrueStrain {
-  // Change of the distance between the patch midlines, along the reference state's.
+  // Change of the distance between the middles of the patches' midlines: the strain of the material
+  // line between them, torsion's lean of gamma^2 / 2 included.
   double long_base = 0;
   double local_a = 0, local_b = 0;
   double hoop = 0, shear = 0;  // of the surface, mean of both patches; the reference has no load

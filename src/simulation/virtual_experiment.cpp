@@ -87,6 +87,18 @@ Session SessionOf(Session session, const VirtualExperimentOptions& options,
   return session;
 }
 
+// The truth must not be handed over with the session.
+Status CheckTruthFile(const std::filesystem::path& folder,
+                      const std::filesystem::path& truth_file) {
+  std::error_code code;
+  const auto inside = std::filesystem::weakly_canonical(truth_file, code)
+                          .lexically_relative(std::filesystem::weakly_canonical(folder, code));
+  if (inside.empty() || *inside.begin() == "..") return {};
+  return Error{ErrorKind::kUsage, truth_file.string() +
+                                      ": the truth would lie inside the session " +
+                                      folder.string() + "; name a file beside it"};
+}
+
 Status CheckFolder(const std::filesystem::path& folder) {
   if (!std::filesystem::exists(folder / "session.toml")) return {};
   return BadInput(folder.string() +
@@ -100,6 +112,7 @@ Status WriteVirtualExperiment(const VirtualExperimentOptions& options,
                               const std::filesystem::path& truth_file, Console& console) {
   TELESTRAIN_RETURN_IF_ERROR(CheckVirtualExperimentOptions(options));
   TELESTRAIN_RETURN_IF_ERROR(CheckFolder(folder));
+  TELESTRAIN_RETURN_IF_ERROR(CheckTruthFile(folder, truth_file));
   const Session nominal = NominalSession(options);
   TELESTRAIN_ASSIGN_OR_RETURN(const ExperimentTruth truth, InventTruth(options, nominal));
   TELESTRAIN_RETURN_IF_ERROR(EnsureFolder(folder));

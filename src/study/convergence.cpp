@@ -98,8 +98,7 @@ const Point& BasePoint(const Sweep& poses) {
 StudyPlot PlotOf(const Sweep& sweep) {
   StudyPlot plot{sweep.id,
                  sweep.title,
-                 "RMS over " + std::to_string(kRepeats) +
-                     " calibrations at full size; the base is 18 poses, 8 deg and 0.1 px.",
+                 "RMS over all calibrations of a point; the base is 18 poses, 8 deg and 0.1 px.",
                  {sweep.label, sweep.log},
                  {"RMS error of the ruler / µm", true},
                  {},
