@@ -173,8 +173,7 @@ std::string SurfaceVtp(const PipeGrid& grid, const StateStrain& state) {
   std::string points, displacement, axial, hoop, zncc, sigma, group;
   for (std::size_t i = 0; i < grid.points.size(); ++i) {
     const PointResult& result = state.points[i];
-    // A point with too few neighbours has a displacement and no strain: VTK's text format has no
-    // NaN, and a map of strain has no place for it.
+    // Too few neighbours: no strain, and VTK's text format has no NaN.
     if (!result.used || !std::isfinite(result.axial_strain)) continue;
     id_of_point[i] = count++;
     points += Triple(grid.points[i].reference_in_array_mm + result.displacement_mm, 7);

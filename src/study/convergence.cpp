@@ -151,6 +151,16 @@ void Compare(const StudyOptions& options, const Sweep& poses, StudyResult& resul
        "limit: sigma sqrt(1 - parameters / residuals)"}};
 }
 
+std::string AnswerOf(const Sweep& poses) {
+  const Point &few = poses.points.front(), &many = poses.points.back();
+  return "The ruler's error is the corner noise of its own crosses: " +
+         FormatFixed(BasePoint(poses).ruler_rms_um, 3) + " µm at 0.1 px and 18 poses, limit " +
+         FormatFixed(BasePoint(poses).noise_limit_um, 3) + " µm. The calibration alone errs by " +
+         FormatFixed(few.calibration_um, 3) + " µm at " + FormatShortest(few.value) +
+         " poses and by " + FormatFixed(many.calibration_um, 3) + " µm at " +
+         FormatShortest(many.value) + ".";
+}
+
 }  // namespace
 
 Result<StudyResult> StudyConvergence(const StudyOptions& options, const std::filesystem::path&,
@@ -177,14 +187,7 @@ Result<StudyResult> StudyConvergence(const StudyOptions& options, const std::fil
   result.question =
       "How do the reprojection error and the ruler's error follow from the number of poses, the "
       "range of tilts and the corner noise?";
-  const Point &few = poses.points.front(), &many = poses.points.back();
-  result.answer =
-      "The ruler's error is the corner noise of its own crosses: " +
-      FormatFixed(BasePoint(poses).ruler_rms_um, 3) + " µm at 0.1 px and 18 poses, limit " +
-      FormatFixed(BasePoint(poses).noise_limit_um, 3) + " µm. The calibration alone errs by " +
-      FormatFixed(few.calibration_um, 3) + " µm at " + FormatShortest(few.value) +
-      " poses and by " + FormatFixed(many.calibration_um, 3) + " µm at " +
-      FormatShortest(many.value) + ".";
+  result.answer = AnswerOf(poses);
   Compare(options, poses, result);
   for (const Sweep* sweep : {&poses, &tilt, &noise}) {
     result.plots.push_back(PlotOf(*sweep));

@@ -203,6 +203,7 @@ TEST(VirtualExperimentOptions, RefusesValuesOutsideTheirRange) {
   refused(&Options::bit_depth, 14, "bit_depth is 14, wanted 8, 10, 12 or 16");
   refused(&Options::numerical_aperture, 0.004, "numerical_aperture is 0.004, wanted 0, or 0.005");
   refused(&Options::pipe_bend_radius_mm, -50.0, "pipe_bend_radius_mm is -50 mm, wanted 0, or 100");
+  refused(&Options::pipe_states, 2, "pipe_states is 2, wanted 0 or at least 3");
   refused(&Options::wall_thickness_mm, 4.0, "wall_thickness_mm is 4 mm, wanted less than half");
   refused(&Options::binning, 5, "binning is 5, wanted 1 to 4");
   refused(&Options::cut_off_poses, 10, "cut_off_poses is 10, wanted at most poses - 3 = 9");
