@@ -145,11 +145,14 @@ Status VerifyStep(const Session& session, const fs::path& results, Console& cons
   TELESTRAIN_RETURN_IF_ERROR(
       WriteJson(results / "ruler.json", RulerJson(session, lengths, made_from)));
   const RulerSummary summary = Summarise(lengths);
-  if (summary.count == 0) console.Warn("no ruler image could be measured");
-  console.Say("verify     " + Count(static_cast<std::size_t>(summary.count), "ruler length") +
-              ", error mean " + FormatFixed(summary.mean_error_um, 3) + " um, sd " +
-              FormatFixed(summary.sd_error_um, 3) + " um, largest " +
-              FormatFixed(summary.max_abs_error_um, 3) + " um");
+  if (summary.count == 0)
+    console.Say("verify     none of " + Count(lengths.size(), "ruler image") +
+                " could be measured");
+  else
+    console.Say("verify     " + Count(static_cast<std::size_t>(summary.count), "ruler length") +
+                ", error mean " + FormatFixed(summary.mean_error_um, 3) + " um, sd " +
+                FormatFixed(summary.sd_error_um, 3) + " um, largest " +
+                FormatFixed(summary.max_abs_error_um, 3) + " um");
   for (const RulerLength& length : lengths)
     if (!length.rejected_because.empty())
       console.Note("  not used: " + length.image + ": " + length.rejected_because);

@@ -72,6 +72,11 @@ void CheckDesign(const OpticalRig& rig, const DesignLimits& limits, RigDesign& d
 
 Result<RigDesign> AnalyseRig(const OpticalRig& rig, const DesignOptions& options) {
   if (rig.paths.empty()) return BadInput("the rig has no view; describe one path at least");
+  if (std::isnan(options.numerical_aperture) || std::isnan(options.mirror_margin_mm))
+    return Error{
+        ErrorKind::kUsage,
+        "numerical aperture and mirror margin must be numbers; leave an option out for its "
+        "default"};
   RigDesign design;
   design.numerical_aperture = options.numerical_aperture > 0
                                   ? options.numerical_aperture

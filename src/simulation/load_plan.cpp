@@ -81,6 +81,17 @@ double StrainBetween(const DeformedPipe& state, const DeformedPipe& reference, d
   return after_mm.norm() / before_mm.norm() - 1;  // of the material line, as a gauge has it
 }
 
+double MeanPatchX_mm(const VirtualInstrument& instrument, const std::string& group) {
+  double sum = 0;
+  int count = 0;
+  for (const InstrumentView& view : instrument.views) {
+    if (view.view.group != group) continue;
+    sum += view.center_in_array_mm.x();
+    ++count;
+  }
+  return sum / count;
+}
+
 }  // namespace
 
 std::vector<PipeTruth> PlanLoads(const VirtualExperimentOptions& options, const PipeSpec& spec) {
@@ -123,6 +134,11 @@ TrueStrain StrainOf(const DeformedPipe& state, const DeformedPipe& reference, do
       strain.shear += surface.shear / (2 * kArcSamples);
     });
   return strain;
+}
+
+TrueStrain StrainOf(const ExperimentTruth& truth, const PipeTruth& state) {
+  return StrainOf(state.pipe, truth.pipe.front().pipe, MeanPatchX_mm(truth.instrument, "A"),
+                  MeanPatchX_mm(truth.instrument, "B"));
 }
 
 }  // namespace telestrain

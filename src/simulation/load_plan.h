@@ -23,5 +23,7 @@ struct TrueStrain {
 };
 TrueStrain StrainOf(const DeformedPipe& state, const DeformedPipe& reference, double patch_a_x_mm,
                     double patch_b_x_mm);
+// Of one state of the experiment against its first, between the patches that the groups see.
+TrueStrain StrainOf(const ExperimentTruth& truth, const PipeTruth& state);
 
 }  // namespace telestrain

@@ -104,22 +104,10 @@ Json RulerJson(const ExperimentTruth& truth) {
   return {{"length_mm", truth.ruler_length_mm}, {"images", std::move(list)}};
 }
 
-double MeanPatchX_mm(const VirtualInstrument& instrument, const std::string& group) {
-  double sum = 0;
-  int count = 0;
-  for (const InstrumentView& view : instrument.views) {
-    if (view.view.group != group) continue;
-    sum += view.center_in_array_mm.x();
-    ++count;
-  }
-  return sum / count;
-}
-
 Json StateJson(const ExperimentTruth& truth, const PipeTruth& state) {
   const DeformedPipe& reference = truth.pipe.front().pipe;
   const DeformedPipe& pipe = state.pipe;
-  const TrueStrain strain = StrainOf(pipe, reference, MeanPatchX_mm(truth.instrument, "A"),
-                                     MeanPatchX_mm(truth.instrument, "B"));
+  const TrueStrain strain = StrainOf(truth, state);
   const Eigen::Vector3d turn_deg =
       LogRotation(pipe.RotationFrom(reference)) * 180 / std::numbers::pi;
   return {{"image", state.state.image},

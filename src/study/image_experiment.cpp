@@ -44,23 +44,10 @@ Status ClearSession(const fs::path& folder, const fs::path& truth_file) {
   return {};
 }
 
-double MeanPatchX_mm(const VirtualInstrument& instrument, const std::string& group) {
-  double sum_mm = 0;
-  int count = 0;
-  for (const InstrumentView& view : instrument.views) {
-    if (view.view.group != group) continue;
-    sum_mm += view.center_in_array_mm.x();
-    ++count;
-  }
-  return sum_mm / count;
-}
-
 std::vector<double> TrueAxial_microstrain(const ExperimentTruth& truth) {
-  const double a_mm = MeanPatchX_mm(truth.instrument, "A");
-  const double b_mm = MeanPatchX_mm(truth.instrument, "B");
   std::vector<double> strains;
   for (const PipeTruth& state : truth.pipe)
-    strains.push_back(1e6 * StrainOf(state.pipe, truth.pipe.front().pipe, a_mm, b_mm).long_base);
+    strains.push_back(1e6 * StrainOf(truth, state).long_base);
   return strains;
 }
 
