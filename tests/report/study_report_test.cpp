@@ -102,6 +102,10 @@ TEST_F(StudyReport, HasABookmarkForEverySectionThatIsThere) {
 TEST_F(StudyReport, ATitleIsEnough) {
   study_ = {{"schema", "telestrain.study/1"}, {"study", "convergence"}, {"title", "Convergence"}};
   Make();
+  NEEDS_TOOL(TELESTRAIN_TOOL_PDFTOTEXT, "pdftotext");
+  const std::string text = WithoutSpace(TextOfPdf());
+  EXPECT_NE(text.find("Page1of1"), std::string::npos) << text;
+  EXPECT_NE(text.find("Convergence"), std::string::npos) << text;
 }
 
 TEST_F(StudyReport, EmptySeriesAndNoSeriesLeaveAnEmptyChart) {
@@ -109,6 +113,10 @@ TEST_F(StudyReport, EmptySeriesAndNoSeriesLeaveAnEmptyChart) {
   study_["plots"][1]["series"][0]["x"] = Json::array();
   study_["plots"][1]["series"][0]["y"] = Json::array();
   Make();
+  NEEDS_TOOL(TELESTRAIN_TOOL_PDFTOTEXT, "pdftotext");
+  const std::string text = WithoutSpace(TextOfPdf());
+  for (const std::size_t plot : {0, 1})
+    EXPECT_NE(text.find(WithoutSpace(study_["plots"][plot]["title"])), std::string::npos) << text;
 }
 
 TEST_F(StudyReport, TheSameStudyGivesTheSameBytes) {

@@ -9,20 +9,12 @@
 #include "geometry/rotation.h"
 #include "simulation/load_case.h"
 #include "simulation/load_plan.h"
+#include "tests/unit/simulation/loaded_pipe.h"
 
 namespace telestrain {
 namespace {
 
-DeformedPipe LoadedPipe() {
-  DeformedPipe pipe;
-  pipe.radius_mm = 4;
-  pipe.poisson_ratio = 0.31;
-  pipe.membrane_strain = 750e-6;
-  pipe.curvature_per_mm = 40e-6 / 4;
-  pipe.array_from_pipe = ExpRotation({0.001, -0.002, 0.0015});
-  pipe.origin_in_array_mm = {0.04, -0.03, -4.02};
-  return pipe;
-}
+using testing_support::LoadedPipe;
 
 TEST(DeformedPipe, MaterialPointsAreStrainedAsAsked) {
   const DeformedPipe pipe = LoadedPipe();

@@ -10,20 +10,12 @@
 #include "simulation/nominal_session.h"
 #include "simulation/pipe_image.h"
 #include "simulation/pipe_rays.h"
+#include "tests/unit/simulation/loaded_pipe.h"
 
 namespace telestrain {
 namespace {
 
-DeformedPipe LoadedPipe() {
-  DeformedPipe pipe;
-  pipe.radius_mm = 4;
-  pipe.poisson_ratio = 0.31;
-  pipe.membrane_strain = 750e-6;
-  pipe.curvature_per_mm = 40e-6 / 4;
-  pipe.array_from_pipe = ExpRotation({0.001, -0.002, 0.0015});
-  pipe.origin_in_array_mm = {0.04, -0.03, -4.02};
-  return pipe;
-}
+using testing_support::LoadedPipe;
 
 TEST(PipeRays, FindTheSameMaterialPointInBothViews) {
   const VirtualExperimentOptions options;
