@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <vector>
 
+#include "base/check.h"
+
 namespace telestrain {
 
 std::string FormatShortest(double value) {
@@ -52,6 +54,17 @@ int EditDistance(std::string_view a, std::string_view b) {
     }
   }
   return row[b.size()];
+}
+
+double Median(std::vector<double> values) {
+  TELESTRAIN_CHECK(!values.empty(), "no values, no median");
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+std::string CountText(std::size_t number, const std::string& noun) {
+  return std::to_string(number) + " " + noun + (number == 1 ? "" : "s");
 }
 
 }  // namespace telestrain

@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace telestrain {
 
@@ -36,5 +37,11 @@ std::string NearestWord(std::string_view word, const Range& candidates) {
   }
   return nearest;
 }
+
+// The middle value; of an even number of values the upper of the two. Not of none.
+double Median(std::vector<double> values);
+
+// "1 corner", "2 corners".
+std::string CountText(std::size_t number, const std::string& noun);
 
 }  // namespace telestrain

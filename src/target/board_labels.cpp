@@ -12,137 +12,137 @@ namespace telestrain {
 namespace {
 
 using Eigen::Matrix2d;
-using Eigen::Vector2d;
+using Eigen::Matrix2i;
 
 constexpr double kLeastMargin_rad = 0.35;  // 20 deg
-// Of the whole board: the corners that are missing are then looked for where they must be.
-constexpr double kLeastFilling = 0.75;
-// A corner nearer to the view's edge cannot be measured.
-constexpr double kEdgeMargin_px = 1;
-
-// A way to read the grid: column c and row r of the board are at corner + c along + r up.
-struct Reading {
-  LatticeIndex corner;
-  LatticeIndex along, up;
-
-  LatticeIndex At(int column, int row) const {
-    return {corner.first + column * along.first + row * up.first,
-            corner.second + column * along.second + row * up.second};
-  }
-  Matrix2d Axes(const CornerLattice& lattice) const {
-    Matrix2d axes;
-    axes << lattice.axes_px * Vector2d(along.first, along.second),
-        lattice.axes_px * Vector2d(up.first, up.second);
-    return axes;
-  }
-};
-
-// All readings of a grid that fills columns x rows.
-std::vector<Reading> Readings(const CornerLattice& lattice, int columns, int rows) {
-  std::vector<Reading> readings;
-  for (const bool swapped : {false, true}) {
-    const int width = swapped ? rows : columns, height = swapped ? columns : rows;
-    if (lattice.Width() != width || lattice.Height() != height) continue;
-    for (const int sx : {1, -1})
-      for (const int sy : {1, -1}) {
-        Reading reading;
-        reading.corner = {sx > 0 ? lattice.first.first : lattice.last.first,
-                          sy > 0 ? lattice.first.second : lattice.last.second};
-        reading.along = swapped ? LatticeIndex{0, sy} : LatticeIndex{sx, 0};
-        reading.up = swapped ? LatticeIndex{sx, 0} : LatticeIndex{0, sy};
-        readings.push_back(reading);
-      }
-  }
-  return readings;
-}
 
 // Turn of the rotation nearest to a 2x2 matrix of positive determinant.
 double TurnOf(const Matrix2d& m) { return std::atan2(m(1, 0) - m(0, 1), m(0, 0) + m(1, 1)); }
 
 double LargestStretch(const Matrix2d& m) { return m.jacobiSvd().singularValues()[0]; }
 
-bool IsInside(const Vector2d& pixel, const PixelRegion& region, double margin_px) {
-  return pixel.x() >= region.x + margin_px && pixel.y() >= region.y + margin_px &&
-         pixel.x() <= region.x + region.width - 1 - margin_px &&
-         pixel.y() <= region.y + region.height - 1 - margin_px;
-}
-
-// Whether a place that has no corner, on the grid or one step about it, is out of the view.
-bool TouchesEdge(const CornerLattice& lattice, const PixelRegion& region, int beyond) {
-  for (int i = lattice.first.first - beyond; i <= lattice.last.first + beyond; ++i)
-    for (int j = lattice.first.second - beyond; j <= lattice.last.second + beyond; ++j)
-      if (!lattice.pixels.contains({i, j}) &&
-          !IsInside(lattice.Predict({i, j}), region, kEdgeMargin_px))
-        return true;
-  return false;
-}
-
-std::string CountOf(const CornerLattice& lattice, const TargetSearch& search) {
-  return std::to_string(lattice.Count()) + " of " + std::to_string(search.columns * search.rows);
-}
-
 std::string SizeText(int columns, int rows) {
   return std::to_string(columns) + " x " + std::to_string(rows);
 }
 
-// A telecentric view shortens one direction of a tilted board and shows the other in full: the
-// larger stretch of the axes is the magnification, whatever the pose.
-std::string WhyWrongScale(const CornerLattice& lattice, const TargetSearch& search) {
-  const double found = LargestStretch(lattice.axes_px);
-  const double wanted = LargestStretch(search.nominal_px_per_mm) * search.square_mm;
-  if (found > 0.75 * wanted && found < 1.33 * wanted) return {};
-  return "another pattern: squares of " + FormatFixed(found, 1) +
-         " px where the nominal view has " + FormatFixed(wanted, 1) + " px";
+// (column, row) = steps (i, j) + origin; the inverse of a signed permutation is its transpose.
+std::array<Matrix2i, 8> SignedPermutations() {
+  std::array<Matrix2i, 8> all;
+  std::size_t n = 0;
+  for (const int swap : {0, 1})
+    for (const int a : {1, -1})
+      for (const int b : {1, -1}) {
+        Matrix2i& m = all[n++];
+        m.setZero();
+        m(0, swap) = a;
+        m(1, 1 - swap) = b;
+      }
+  return all;
+}
+
+// How one axis of the target runs over the grid.
+struct AxisOnGrid {
+  std::size_t axis = 0;
+  bool reversed = false;
+  int extent = 0, count = 0;
+  bool border_at_first = false, border_at_last = false;  // in the target's sense
+  bool continues = false;
+
+  AxisOnGrid(const CornerGrid& grid, const BoardEnds& ends, const Matrix2i& steps, int target_axis,
+             int board_count)
+      : axis(steps(target_axis, 0) != 0 ? 0 : 1),
+        reversed(steps.row(target_axis).sum() < 0),
+        extent(grid.Extent(static_cast<int>(axis))),
+        count(board_count) {
+    const auto& [first, last] = ends[axis];
+    border_at_first = (reversed ? last : first) == BeyondEnd::kBorder;
+    border_at_last = (reversed ? first : last) == BeyondEnd::kBorder;
+    continues = first == BeyondEnd::kContinues || last == BeyondEnd::kContinues;
+  }
+  bool IsWhole() const { return extent == count; }
+  bool IsPossible() const {
+    if (extent > count) return false;
+    if (border_at_first && border_at_last) return IsWhole();
+    return !(IsWhole() && continues);
+  }
+  bool IsAnchored() const { return IsWhole() || border_at_first || border_at_last; }
+  // Coordinate of the grid's end that is nearest to the target's origin.
+  int LeastCoordinate() const { return IsWhole() || border_at_first ? 0 : count - extent; }
+};
+
+struct Reading {
+  Matrix2i steps = Matrix2i::Identity();
+  double turn_rad = 10;
+};
+
+std::string WhyNotAnchored(const AxisOnGrid& axis, const CornerGrid& grid, bool columns) {
+  if (axis.IsAnchored()) return {};
+  const std::string what = columns ? "columns" : "rows", across = columns ? "rows" : "columns";
+  return "cut off or covered at both ends of its " + across + ": " +
+         SizeText(grid.Width(), grid.Height()) + " corners seen, the board's " + what +
+         " cannot be counted; move the target so that one end of its " + across +
+         ", with the border, is in the view";
+}
+
+int Origin(const AxisOnGrid& axis, const CornerGrid& grid) {
+  const int first = axis.axis == 0 ? grid.first.first : grid.first.second;
+  const int last = axis.axis == 0 ? grid.last.first : grid.last.second;
+  return axis.LeastCoordinate() + (axis.reversed ? last : -first);
 }
 
 }  // namespace
 
-std::string WhyNotWhole(const CornerLattice& lattice, const TargetSearch& search) {
-  if (std::string wrong = WhyWrongScale(lattice, search); !wrong.empty()) return wrong;
+std::string WhyAnotherPattern(const CornerLattice& lattice, const TargetSearch& search) {
+  // A telecentric view shortens one direction of a tilted board and shows the other in full: the
+  // larger stretch of the axes is the magnification, whatever the pose.
+  const double found = LargestStretch(lattice.axes_px);
+  const double wanted = LargestStretch(search.nominal_px_per_mm) * search.square_mm;
+  if (!(found > 0.75 * wanted && found < 1.33 * wanted))
+    return "another pattern: squares of " + FormatFixed(found, 1) +
+           " px where the nominal view has " + FormatFixed(wanted, 1) + " px";
   const auto [narrow, wide] = std::minmax({lattice.Width(), lattice.Height()});
   const auto [rows, columns] = std::minmax({search.columns, search.rows});
   if (narrow > rows || wide > columns)
     return "another pattern: a grid of " + SizeText(wide, narrow) + " corners, the board has " +
            SizeText(search.columns, search.rows);
-  const bool box_is_full = narrow == rows && wide == columns;
-  const bool is_complete = box_is_full && lattice.Count() == columns * rows;
-  if (is_complete) return {};
-  if (TouchesEdge(lattice, search.region, box_is_full ? 0 : 1))
-    return "cut off: " + CountOf(lattice, search) + " corners inside the view";
-  if (box_is_full && lattice.Filling() >= kLeastFilling) return {};
-  return "partly covered: " + CountOf(lattice, search) + " corners found";
+  return {};
 }
 
-std::optional<LabelledBoard> LabelBoard(const CornerLattice& lattice, const TargetSearch& search) {
-  const Matrix2d nominal_px = search.nominal_px_per_mm * search.square_mm;
-  const Reading* best = nullptr;
-  LabelledBoard board;
-  double least = 10, second = 10;
-  const auto readings = Readings(lattice, search.columns, search.rows);
-  for (const Reading& reading : readings) {
-    const Matrix2d board_from_nominal = nominal_px.inverse() * reading.Axes(lattice);
-    if (!(board_from_nominal.determinant() > 0)) continue;
-    const double turn = TurnOf(board_from_nominal);
-    if (std::abs(turn) < least) {
-      second = least;
-      least = std::abs(turn);
-      best = &reading;
-      board.turn_rad = turn;
-    } else {
-      second = std::min(second, std::abs(turn));
+BoardLabels LabelGrid(const CornerGrid& grid, const BoardEnds& ends, const TargetSearch& search) {
+  const Matrix2d grid_from_nominal =
+      (search.nominal_px_per_mm * search.square_mm).inverse() * grid.Axes_px();
+  Reading best, second;
+  for (const Matrix2i& steps : SignedPermutations()) {
+    const AxisOnGrid x(grid, ends, steps, 0, search.columns), y(grid, ends, steps, 1, search.rows);
+    if (!x.IsPossible() || !y.IsPossible()) continue;
+    const Matrix2d turned = grid_from_nominal * steps.transpose().cast<double>();
+    if (!(turned.determinant() > 0)) continue;
+    const Reading reading{steps, std::abs(TurnOf(turned))};
+    if (reading.turn_rad < best.turn_rad) {
+      second = best;
+      best = reading;
+    } else if (reading.turn_rad < second.turn_rad) {
+      second = reading;
     }
   }
-  if (best == nullptr || second - least < kLeastMargin_rad) return std::nullopt;
-  board.next_turn_rad = second;
-  board.axes_px = best->Axes(lattice);
-  for (int row = 0; row < search.rows; ++row)
-    for (int column = 0; column < search.columns; ++column) {
-      const LatticeIndex at = best->At(column, row);
-      const auto seen = lattice.pixels.find(at);
-      const bool is_seen = seen != lattice.pixels.end();
-      board.corners.push_back({is_seen ? seen->second : lattice.Predict(at), is_seen});
-    }
-  return board;
+  BoardLabels labels;
+  if (best.turn_rad > 3.2) {
+    labels.refused_because =
+        "another pattern: the borders about " + SizeText(grid.Width(), grid.Height()) +
+        " corners do not fit a board of " + SizeText(search.columns, search.rows);
+    return labels;
+  }
+  if (second.turn_rad - best.turn_rad < kLeastMargin_rad) {
+    labels.refused_because = "turned too far from the nominal view to tell the board's ends apart";
+    return labels;
+  }
+  labels.steps = best.steps;
+  const AxisOnGrid x(grid, ends, best.steps, 0, search.columns),
+      y(grid, ends, best.steps, 1, search.rows);
+  labels.refused_because = WhyNotAnchored(x, grid, true);
+  if (labels.refused_because.empty()) labels.refused_because = WhyNotAnchored(y, grid, false);
+  labels.origin = {Origin(x, grid), Origin(y, grid)};
+  return labels;
 }
 
 }  // namespace telestrain

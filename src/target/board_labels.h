@@ -4,37 +4,33 @@
 #include <string>
 #include <vector>
 
-#include "target/corner_lattice.h"
+#include "target/board_ends.h"
+#include "target/corner_grid.h"
 #include "target/target_detector.h"
 
 namespace telestrain {
 
-// A grid whose corners have been named.
-struct LabelledBoard {
-  // columns x rows places, x of the target running fastest. `seen` is false where no candidate
-  // was found and the place is a prediction.
-  struct Corner {
-    Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
-    bool seen = false;
-  };
-  std::vector<Corner> corners;
-  // Image of one square's sides along the target's x and y, px; fitted over the whole board.
-  Eigen::Matrix2d axes_px = Eigen::Matrix2d::Identity();
-  // Turn of the board against the nominal view, and by how much the next labelling that agrees
-  // with the view's handedness is turned further. Their difference is what the choice rests on.
-  double turn_rad = 0;
-  double next_turn_rad = 0;
+// Which corner of the board each corner of a grid is, or why that cannot be told.
+struct BoardLabels {
+  // Column and row of the grid's corner (i, j): origin + along i + up j, column first.
+  Eigen::Vector2i origin = Eigen::Vector2i::Zero();
+  Eigen::Matrix2i steps = Eigen::Matrix2i::Zero();
+  std::string refused_because;  // empty when the labels are known
+
+  Eigen::Vector2i ColumnAndRow(const LatticeIndex& at) const {
+    return origin + steps * Eigen::Vector2i(at.first, at.second);
+  }
 };
 
-// Names the corners of a grid of exactly columns x rows places. Of the board's symmetries that
-// give the axes the handedness of the nominal view the one with the smallest turn is right, since
-// the true axes lie within 45 deg of the nominal ones. Nothing when the two smallest turns differ
-// by less than 20 deg or the handedness cannot be had.
-std::optional<LabelledBoard> LabelBoard(const CornerLattice& lattice, const TargetSearch& search);
+// Of the four quarter turns that give the axes the handedness of the nominal view, the one with
+// the smallest turn is right, since the true axes lie within 45 deg of the nominal ones; turns with
+// which the grid would leave the board, or with which two seen borders would be at the wrong
+// distance, are left out. When the next smallest turn differs by less than 20 deg the choice is
+// refused. Along each axis the grid must span the whole board or one border must be seen.
+BoardLabels LabelGrid(const CornerGrid& grid, const BoardEnds& ends, const TargetSearch& search);
 
-// Why a grid is not the whole board: "cut off: ...", "partly covered: ...", "another pattern: ...";
-// empty when it spans the board's bounding box, holds three quarters of the corners and has the
-// size that the nominal view predicts.
-std::string WhyNotWhole(const CornerLattice& lattice, const TargetSearch& search);
+// "another pattern: ..." when the grid is too large for the board or its squares have not the size
+// that the nominal view predicts; empty otherwise.
+std::string WhyAnotherPattern(const CornerLattice& lattice, const TargetSearch& search);
 
 }  // namespace telestrain

@@ -21,6 +21,7 @@ struct BoardObservation {
   // target x and y; empty when the board was rejected.
   std::vector<std::optional<ImagePoint>> corners;
   std::string rejected_because;  // empty when the board is used
+  int line = 0;                  // of a corner table that it was read from, else 0
 };
 
 // The centre of the ruler's 2x2-square cross in one view.

@@ -231,7 +231,41 @@ EndLine LeastFilledEnd(const CornerLattice& lattice) {
   return least;
 }
 
+// The corners of `other` at their places on `lattice`; nothing when they do not fall on it.
+std::optional<std::map<LatticeIndex, Vector2d>> PlacesOn(const CornerLattice& lattice,
+                                                         const CornerLattice& other) {
+  constexpr double kLargestOff = 0.2;  // of a square
+  const Matrix2d to_lattice = lattice.axes_px.inverse();
+  std::map<LatticeIndex, Vector2d> places;
+  for (const auto& [at, pixel] : other.pixels) {
+    const Vector2d place = to_lattice * (pixel - lattice.origin_px);
+    const Vector2d nearest = place.array().round();
+    if ((place - nearest).cwiseAbs().maxCoeff() > kLargestOff) return std::nullopt;
+    const LatticeIndex index{static_cast<int>(nearest.x()), static_cast<int>(nearest.y())};
+    if (lattice.pixels.contains(index) || !places.emplace(index, pixel).second) return std::nullopt;
+  }
+  return places;
+}
+
 }  // namespace
+
+void JoinSeparated(int columns, int rows, std::vector<CornerLattice>* lattices) {
+  constexpr int kLeastToJoin = 9;
+  for (std::size_t i = 1; i < lattices->size();) {
+    const CornerLattice& other = (*lattices)[i];
+    CornerLattice joined = lattices->front();
+    if (const auto places = PlacesOn(joined, other); places && other.Count() >= kLeastToJoin) {
+      joined.pixels.insert(places->begin(), places->end());
+      UpdateBoxAndFit(&joined);
+      if (!IsTooLarge(joined, columns, rows)) {
+        lattices->front() = std::move(joined);
+        lattices->erase(lattices->begin() + static_cast<std::ptrdiff_t>(i));
+        continue;
+      }
+    }
+    ++i;
+  }
+}
 
 std::vector<CornerLattice> FindLattices(const std::vector<SaddleCandidate>& candidates,
                                         double longest_side_px) {

@@ -43,6 +43,12 @@ struct CornerLattice {
 std::vector<CornerLattice> FindLattices(const std::vector<SaddleCandidate>& candidates,
                                         double longest_side_px);
 
+// Adds to the first (largest) lattice those others that continue it across a gap, a bar before the
+// board for example: of at least nine corners that all fall within 0.2 squares of its places, at
+// the same offset, without making it larger than columns x rows in either order. They are removed
+// from the list. Contrast is not looked at; the fits do.
+void JoinSeparated(int columns, int rows, std::vector<CornerLattice>* lattices);
+
 // Removes end lines that are filled to less than 40 % while the grid is larger than
 // columns x rows in either order: saddles of the background that happen to continue the grid.
 void TrimSpuriousLines(int columns, int rows, CornerLattice* lattice);

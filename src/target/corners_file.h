@@ -20,9 +20,12 @@ std::string CornersVnlText(const std::vector<BoardObservation>& boards);
 Status WriteCornersVnl(const std::vector<BoardObservation>& boards,
                        const std::filesystem::path& path);
 
-// Reads it back. Every block must have `corner_count` lines, or one for a rejected board. Corners
-// get the covariance 1 px^2 times the identity. `name` stands for the file in errors, which name
-// the line.
+// Reads it back, also as mrcal's tools and other detectors write it: with the legend
+// `# filename x y` no level follows, with `# filename x y level` it is the number of times the
+// image was halved before the corner was found. mrcal weights such a corner by 2^-level, so its
+// covariance is 4^level px^2 times the identity. A corner is missing where a field is `-`, the
+// level is negative or x or y is. Every block must have `corner_count` lines, or one for a
+// rejected board. `name` stands for the file in errors, which name the line.
 Result<std::vector<BoardObservation>> ParseCornersVnl(const std::string& name,
                                                       const std::string& text, int corner_count);
 Result<std::vector<BoardObservation>> ReadCornersVnl(const std::filesystem::path& path,

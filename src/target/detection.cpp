@@ -1,5 +1,6 @@
 #include "target/detection.h"
 
+#include <algorithm>
 #include <atomic>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -139,11 +140,10 @@ CrossObservation CrossFromJson(const Json& item) {
   return cross;
 }
 
-}  // namespace
-
-Result<Detection> DetectAll(const Session& session, Console& console) {
+// Searches the calibration images if wanted, and the ruler images.
+Result<Detection> Search(const Session& session, bool with_boards, Console& console) {
   const std::size_t views = session.views.size();
-  const std::size_t boards = session.calibration_images.size();
+  const std::size_t boards = with_boards ? session.calibration_images.size() : 0;
   const std::size_t rulers = session.ruler_images.size();
   Detection detection;
   detection.boards.resize(boards * views);
@@ -170,6 +170,80 @@ Result<Detection> DetectAll(const Session& session, Console& console) {
     console.Progress("detecting", ++done, total);
   });
   for (const Status& outcome : outcomes) TELESTRAIN_RETURN_IF_ERROR(outcome);
+  return detection;
+}
+
+// Corners of a view lie in its region; a detector that was given a cut-out counts from elsewhere.
+Status CheckPlaces(const Session& session, const std::string& where,
+                   const BoardObservation& block) {
+  for (const NominalView& view : session.views) {
+    if (view.name != block.view) continue;
+    const PixelRegion& r = view.region;
+    for (const auto& corner : block.corners) {
+      if (!corner) continue;
+      const Eigen::Vector2d& p = corner->pixel;
+      if (p.x() >= r.x - 0.5 && p.y() >= r.y - 0.5 && p.x() <= r.x + r.width - 0.5 &&
+          p.y() <= r.y + r.height - 0.5)
+        continue;
+      return BadInput(where + "the corner (" + FormatFixed(p.x(), 2) + ", " +
+                      FormatFixed(p.y(), 2) + ") of '" + block.image + "#" + block.view +
+                      "' lies outside region_px of the view (x " + std::to_string(r.x) + " to " +
+                      std::to_string(r.x + r.width - 1) + ", y " + std::to_string(r.y) + " to " +
+                      std::to_string(r.y + r.height - 1) +
+                      "); coordinates count from the corner of the whole sensor");
+    }
+  }
+  return {};
+}
+
+// A block of an imported table must belong to the session.
+Status CheckBlock(const Session& session, const std::string& file, const BoardObservation& block) {
+  std::string images, views;
+  bool has_image = false, has_view = false;
+  for (const auto& pose : session.calibration_images) {
+    has_image |= pose.image == block.image;
+    images += (images.empty() ? "" : ", ") + pose.image;
+  }
+  for (const NominalView& view : session.views) {
+    has_view |= view.name == block.view;
+    views += (views.empty() ? "" : ", ") + view.name;
+  }
+  const std::string where = file + ":" + std::to_string(block.line) + ": ";
+  if (!has_image)
+    return BadInput(where + "'" + block.image +
+                    "' is not a calibration image of the session; it has " + images);
+  if (!has_view)
+    return BadInput(where + "'" + block.view + "' is not a view of the session; it has " + views);
+  return CheckPlaces(session, where, block);
+}
+
+}  // namespace
+
+Result<Detection> DetectAll(const Session& session, Console& console) {
+  return Search(session, true, console);
+}
+
+Result<Detection> ImportCorners(const Session& session, const fs::path& corners_vnl,
+                                Console& console) {
+  TELESTRAIN_ASSIGN_OR_RETURN(const auto blocks,
+                              ReadCornersVnl(corners_vnl, session.target.CornerCount()));
+  std::map<std::string, const BoardObservation*> by_name;
+  for (const BoardObservation& block : blocks) {
+    TELESTRAIN_RETURN_IF_ERROR(CheckBlock(session, corners_vnl.string(), block));
+    if (!by_name.emplace(block.image + "#" + block.view, &block).second)
+      return BadInput(corners_vnl.string() + ": '" + block.image + "#" + block.view +
+                      "' has two blocks; keep one");
+  }
+  TELESTRAIN_ASSIGN_OR_RETURN(Detection detection, Search(session, false, console));
+  for (const auto& pose : session.calibration_images)
+    for (const NominalView& view : session.views) {
+      const auto found = by_name.find(pose.image + "#" + view.name);
+      BoardObservation board{pose.image, view.name, {}, "not in " + corners_vnl.string(), 0};
+      if (found != by_name.end()) board = *found->second;
+      for (auto& corner : board.corners)
+        if (corner) corner->covariance_px2 *= kForeignSigma_px * kForeignSigma_px;
+      detection.boards.push_back(std::move(board));
+    }
   return detection;
 }
 
@@ -200,10 +274,10 @@ Result<std::vector<BoardObservation>> ReadDetectedBoards(const Session& session,
     for (std::size_t i = 0; i < board.corners.size(); ++i) {
       if (!board.corners[i]) continue;
       const auto at = covariances.find({name, static_cast<int>(i)});
-      board.corners[i]->covariance_px2 =
-          at != covariances.end()
-              ? at->second
-              : Eigen::Matrix2d(kForeignSigma_px * kForeignSigma_px * Eigen::Matrix2d::Identity());
+      board.corners[i]->covariance_px2 = at != covariances.end()
+                                             ? at->second
+                                             : Eigen::Matrix2d(kForeignSigma_px * kForeignSigma_px *
+                                                               board.corners[i]->covariance_px2);
     }
   }
   return boards;

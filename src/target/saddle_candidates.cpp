@@ -26,7 +26,7 @@ SmoothedRegion Smooth(const GrayImage& image, const SaddleSearch& search) {
   const PixelRegion& region = search.region;
   // OpenCV wants a non-const pointer; the data are only read.
   const cv::Mat1f whole(image.height, image.width, const_cast<float*>(image.pixels.data()));
-  const cv::Mat view = whole(cv::Rect(region.x, region.y, region.width, region.height)).clone();
+  const cv::Mat view = whole(cv::Rect(region.x, region.y, region.width, region.height));
   SmoothedRegion smoothed;
   const int n = smoothed.reduction = search.reduction;
   smoothed.origin_px = Vector2d(region.x, region.y).array() + 0.5 * (n - 1);
@@ -38,7 +38,7 @@ SmoothedRegion Smooth(const GrayImage& image, const SaddleSearch& search) {
     cv::resize(even, reduced, size, 0, 0, cv::INTER_AREA);
   }
   cv::GaussianBlur(reduced, smoothed.gray, cv::Size(), search.smoothing_px, search.smoothing_px,
-                   cv::BORDER_REPLICATE);
+                   cv::BORDER_REPLICATE | cv::BORDER_ISOLATED);  // other views stay out of it
   return smoothed;
 }
 
@@ -86,12 +86,15 @@ std::vector<Peak> Peaks(const cv::Mat1f& strength, const SaddleSearch& search) {
     for (int x = 1; x + 1 < strength.cols; ++x)
       if (strength(y, x) > 0 && strength(y, x) >= highest(y, x))
         peaks.push_back({strength(y, x), x, y});
-  std::stable_sort(peaks.begin(), peaks.end(),
-                   [](const Peak& a, const Peak& b) { return a.strength > b.strength; });
   if (peaks.empty()) return peaks;
   const auto rank = std::min(peaks.size(), static_cast<std::size_t>(search.expected_count)) - 1;
-  const double least = search.least_share * static_cast<double>(peaks[rank].strength);
-  while (static_cast<double>(peaks.back().strength) < least) peaks.pop_back();
+  const auto stronger = [](const Peak& a, const Peak& b) { return a.strength > b.strength; };
+  std::vector<Peak> ranked = peaks;
+  std::nth_element(ranked.begin(), ranked.begin() + static_cast<std::ptrdiff_t>(rank), ranked.end(),
+                   stronger);
+  const double least = search.least_share * static_cast<double>(ranked[rank].strength);
+  std::erase_if(peaks, [least](const Peak& p) { return static_cast<double>(p.strength) < least; });
+  std::stable_sort(peaks.begin(), peaks.end(), stronger);
   return peaks;
 }
 

@@ -23,6 +23,7 @@ struct SaddleFit {
   ImagePoint point;
   double contrast_gray = 0;  // half the difference between the bright and the dark squares; its
                              // sign is that of the sector between +half_axis_u and +half_axis_v
+  double level_gray = 0;     // midway between the bright and the dark squares, at the corner
   double blur_px = 0;        // standard deviation of the edges' Gaussian profile
   double sigma_gray = 0;     // standard deviation of the residuals
   double angle_u_rad = 0;    // directions of the two lines

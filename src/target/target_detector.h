@@ -20,9 +20,11 @@ struct TargetSearch {
 TargetSearch SearchForBoard(const Session& session, const NominalView& view);
 TargetSearch SearchForCross(const Session& session, const NominalView& view);
 
-// Finds and labels every inner corner of the board in the view's region; a maximum-likelihood fit
-// of a blurred saddle gives each corner and its covariance. A board that is not seen whole is
-// rejected with the reason. Deterministic; thread-safe.
+// Finds and labels the inner corners of the board in the view's region; a maximum-likelihood fit of
+// a blurred saddle gives each corner and its covariance. Corners that are cut off, covered or
+// dirty are missing. Labels rest on what is seen: along each axis the whole board or one of its
+// borders (board_ends.h); otherwise, with fewer than 12 corners over 3 x 3 places, out of focus or
+// with saturated squares the board is rejected with the reason. Deterministic; thread-safe.
 BoardObservation DetectBoard(const GrayImage& image, const TargetSearch& search);
 
 // Finds the centre of the ruler's 2x2-square cross.

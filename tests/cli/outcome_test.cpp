@@ -101,8 +101,8 @@ TEST_F(Outcome, AFolderInPlaceOfTheReportIsAFailedOutput) {
 TEST_F(Outcome, ResultsGoToStdoutAndNoProgressBarIsDrawnIntoAFile) {
   const ProgramRun run = Run("detect");
   ASSERT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_TRUE(run.out.starts_with("detect     39 of 40 board views used")) << run.out;
-  EXPECT_TRUE(Holds(run.err, "pose_003_stage_0.png A2: cut off")) << run.err;
+  EXPECT_TRUE(run.out.starts_with("detect     40 of 40 board views used")) << run.out;
+  EXPECT_FALSE(Holds(run.err, "not used")) << run.err;
   for (const char sign : {'\r', '\x1b', '#'}) {
     EXPECT_EQ(run.err.find(sign), std::string::npos);
     EXPECT_EQ(run.out.find(sign), std::string::npos);

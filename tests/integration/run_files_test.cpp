@@ -75,15 +75,16 @@ TEST_F(RunFiles, CornersComeInOneBlockPerImageAndView) {
   for (const CalibrationImage& image : session->calibration_images)
     for (const NominalView& view : session->views) {
       const std::string name = image.image + "#" + view.name;
-      const bool missing = lines.at(at) == name + " - - -";
-      const std::size_t count = missing ? 1 : 13 * 9;
-      for (std::size_t i = 0; i < count; ++i, ++at) {
+      int missing = 0;
+      for (std::size_t i = 0; i < 13 * 9; ++i, ++at) {
         const auto words = WordsOf(lines.at(at));
         ASSERT_EQ(words.size(), 4u) << lines[at];
         ASSERT_EQ(words[0], name);
-        ASSERT_EQ(words[3], missing ? "-" : "0");
+        ASSERT_TRUE(words[3] == "0" || lines[at] == name + " - - -") << lines[at];
+        missing += words[3] == "-";
       }
-      EXPECT_EQ(missing, name == "calibration/pose_003_stage_0.png#A2");
+      // Of 40 boards one is cut off, by a row.
+      EXPECT_EQ(missing, name == "calibration/pose_003_stage_0.png#A2" ? 13 : 0) << name;
     }
   EXPECT_EQ(at, lines.size());
 }
