@@ -19,7 +19,7 @@ void AddLens(const Json& calibration, ResultsDraft& draft) {
   if (const auto magnification = NumberAt(calibration, "/lens/magnification_px_per_mm")) {
     const auto expanded =
         draft.acceptance.Expanded(NumberAt(calibration, "/lens/sigma_magnification_px_per_mm"));
-    table.AddFact("Magnification (U of the fit, pitch certificate not included)",
+    table.AddFact("Magnification (U with the certificate of the pitch)",
                   UncertainCell(*magnification, expanded, FixedCell(magnification, 4)), "px/mm");
   }
   table.AddFact("Object side of one pixel",
@@ -231,7 +231,7 @@ void AddStageDecision(const Json& calibration, ResultsDraft& draft) {
 
 void AddModels(const Json& calibration, ResultsDraft& draft) {
   ResultTable tests(
-      "model-tests", "Distortion models tested",
+      "model-tests", "Models tested",
       {{"Model", ""}, {"Parameters", ""}, {"χ²", ""}, {"F", ""}, {"p", ""}, {"Accepted", ""}});
   for (const Json& model : ListAt(calibration, "/model_tests")) {
     const Json& accepted = EntryAt(model, "/accepted");

@@ -41,5 +41,7 @@ struct SessionArguments {
   std::string session, out;
   void AddTo(CLI::App& app);
 };
+// --corners FILE: where the corners of the target come from instead of the calibration images.
+void AddCornersOption(CLI::App& app, std::string& corners);
 
 }  // namespace telestrain

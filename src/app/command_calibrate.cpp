@@ -1,9 +1,11 @@
+#include <CLI/CLI.hpp>
+
 #include "app/command.h"
 #include "app/steps.h"
 
 // clang-format off
 // telestrain calibrate SESSION --out RESULTS
-//   calibrate  magnification 227.3823 px/mm, distortion k1 p1 p2, reprojection RMS 0.0022 px over 10881 corners
+//   calibrate  magnification 227.3823 px/mm, lens model k1 p1 p2, reprojection RMS 0.0022 px over 10881 corners
 // clang-format on
 
 namespace telestrain {
@@ -16,16 +18,34 @@ class CalibrateCommand : public Command {
     return "calibrate lens and views from the detected corners";
   }
   std::string Example() const override { return "telestrain calibrate session --out results"; }
-  void AddOptions(CLI::App& app) override { arguments_.AddTo(app); }
+  void AddOptions(CLI::App& app) override {
+    arguments_.AddTo(app);
+    AddCornersOption(app, corners_);
+    app.add_option(
+        "--compare", compare_,
+        "an earlier calibration.json of this instrument: says what moved since, in um on "
+        "the object and in microstrain");
+    app.add_flag("--robust", choices_.robust,
+                 "weigh corners down by their misfit (Cauchy's loss) instead of removing outliers");
+  }
   Result<int> Run(Console& console) override {
+    if (!compare_.empty()) {
+      TELESTRAIN_ASSIGN_OR_RETURN(choices_.earlier, ReadEarlier(compare_));
+    }
     TELESTRAIN_ASSIGN_OR_RETURN(const Session session,
-                                ReopenSession(arguments_.session, arguments_.out));
-    TELESTRAIN_RETURN_IF_ERROR(CalibrateStep(session, arguments_.out, console));
+                                corners_.empty()
+                                    ? ReopenSession(arguments_.session, arguments_.out)
+                                    : OpenSession(arguments_.session, arguments_.out, corners_));
+    if (!corners_.empty())
+      TELESTRAIN_RETURN_IF_ERROR(DetectStep(session, arguments_.out, corners_, console));
+    TELESTRAIN_RETURN_IF_ERROR(CalibrateStep(session, arguments_.out, choices_, console));
     return 0;
   }
 
  private:
   SessionArguments arguments_;
+  std::string corners_, compare_;
+  CalibrateChoices choices_;
 };
 
 }  // namespace

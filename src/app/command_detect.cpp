@@ -16,16 +16,20 @@ class DetectCommand : public Command {
     return "find the corners of the target and the crosses of the ruler in every view";
   }
   std::string Example() const override { return "telestrain detect session --out results"; }
-  void AddOptions(CLI::App& app) override { arguments_.AddTo(app); }
+  void AddOptions(CLI::App& app) override {
+    arguments_.AddTo(app);
+    AddCornersOption(app, corners_);
+  }
   Result<int> Run(Console& console) override {
     TELESTRAIN_ASSIGN_OR_RETURN(const Session session,
-                                OpenSession(arguments_.session, arguments_.out));
-    TELESTRAIN_RETURN_IF_ERROR(DetectStep(session, arguments_.out, console));
+                                OpenSession(arguments_.session, arguments_.out, corners_));
+    TELESTRAIN_RETURN_IF_ERROR(DetectStep(session, arguments_.out, corners_, console));
     return 0;
   }
 
  private:
   SessionArguments arguments_;
+  std::string corners_;
 };
 
 }  // namespace

@@ -4,7 +4,7 @@
 // clang-format off
 // telestrain run SESSION --out RESULTS
 //   detect     93 of 96 board views used, 48 of 48 ruler crosses
-//   calibrate  magnification 227.3823 px/mm, distortion k1 p1 p2, reprojection RMS 0.0022 px over 10881 corners
+//   calibrate  magnification 227.3823 px/mm, lens model k1 p1 p2, reprojection RMS 0.0022 px over 10881 corners
 //   verify     12 ruler lengths, error mean 0.002 um, sd 0.008 um, largest 0.020 um
 //   measure    6 states, 475 surface points, pipe diameter 8.0004 mm
 //   render     pictures in results/pictures
@@ -22,12 +22,16 @@ class RunCommand : public Command {
     return "do everything: detect, calibrate, verify, measure, render, report";
   }
   std::string Example() const override { return "telestrain run session --out results"; }
-  void AddOptions(CLI::App& app) override { arguments_.AddTo(app); }
+  void AddOptions(CLI::App& app) override {
+    arguments_.AddTo(app);
+    AddCornersOption(app, corners_);
+  }
   Result<int> Run(Console& console) override {
     const std::string& out = arguments_.out;
-    TELESTRAIN_ASSIGN_OR_RETURN(const Session session, OpenSession(arguments_.session, out));
-    TELESTRAIN_RETURN_IF_ERROR(DetectStep(session, out, console));
-    TELESTRAIN_RETURN_IF_ERROR(CalibrateStep(session, out, console));
+    TELESTRAIN_ASSIGN_OR_RETURN(const Session session,
+                                OpenSession(arguments_.session, out, corners_));
+    TELESTRAIN_RETURN_IF_ERROR(DetectStep(session, out, corners_, console));
+    TELESTRAIN_RETURN_IF_ERROR(CalibrateStep(session, out, {}, console));
     TELESTRAIN_RETURN_IF_ERROR(VerifyStep(session, out, console));
     TELESTRAIN_RETURN_IF_ERROR(MeasureStep(session, out, console));
     TELESTRAIN_RETURN_IF_ERROR(RenderStep(out, console));
@@ -36,6 +40,7 @@ class RunCommand : public Command {
 
  private:
   SessionArguments arguments_;
+  std::string corners_;
 };
 
 }  // namespace

@@ -16,6 +16,13 @@ void SessionArguments::AddTo(CLI::App& app) {
   app.add_option("--out", out, "results folder; made when it does not exist")->required();
 }
 
+void AddCornersOption(CLI::App& app, std::string& corners) {
+  app.add_option(
+      "--corners", corners,
+      "corners.vnl (mrcal's format, from any detector) to use instead of the calibration "
+      "images");
+}
+
 namespace {
 
 constexpr int kUsageExit = 2;

@@ -19,7 +19,7 @@ constexpr const char* kInputsSchema = "telestrain.inputs/1";
 const std::vector<std::string>& OutputsOf(Step step) {
   static const std::map<Step, std::vector<std::string>> kOutputs{
       {Step::kDetect, {"corners.vnl", "corner_covariances.csv", "detection.json"}},
-      {Step::kCalibrate, {"calibration.json", "residuals.csv"}},
+      {Step::kCalibrate, {"calibration.json", "residuals.csv", "comparison.json"}},
       {Step::kVerify, {"ruler.csv", "ruler.json"}},
       {Step::kMeasure, {"strain.csv", "strain.json"}},
       {Step::kRender, {"pictures/array.png", "pictures/targets.png", "pictures/pipe_strain.png"}},
@@ -64,7 +64,8 @@ std::vector<std::string> TableNames(const Session& session) {
 
 std::vector<std::string> ImageNames(const Session& session) {
   std::vector<std::string> names;
-  for (const CalibrationImage& image : session.calibration_images) names.push_back(image.image);
+  if (!session.corners_are_given)
+    for (const CalibrationImage& image : session.calibration_images) names.push_back(image.image);
   for (const std::string& image : session.ruler_images) names.push_back(image);
   for (const PipeState& state : session.pipe_states) names.push_back(state.image);
   return names;
@@ -101,6 +102,7 @@ Json TargetJson(const TargetSpec& target) {
           {"sigma_square_um", target.sigma_square_um},
           {"sigma_separation_um", target.sigma_separation_um},
           {"coplanarity_um", target.coplanarity_um},
+          {"flatness_um", target.flatness_um},
           {"boards", boards}};
 }
 
@@ -140,8 +142,13 @@ Status RemoveOutputsFrom(const fs::path& results, Step step) {
   return {};
 }
 
-Result<std::string> InputsText(const Session& session) {
+Result<std::string> InputsText(const Session& session, const fs::path& corners) {
   TELESTRAIN_ASSIGN_OR_RETURN(const Json files, FilesJson(session));
+  Json corners_json = nullptr;
+  if (!corners.empty()) {
+    TELESTRAIN_ASSIGN_OR_RETURN(const std::string bytes, ReadFile(corners));
+    corners_json = FileJson(corners.filename().string(), bytes);
+  }
   const Json json{{"schema", kInputsSchema},
                   {"program", ProgramJson()},
                   {"title", session.title},
@@ -166,8 +173,15 @@ Result<std::string> InputsText(const Session& session) {
                    {{"calibration_images", session.calibration_images.size()},
                     {"ruler_images", session.ruler_images.size()},
                     {"pipe_images", session.pipe_states.size()}}},
+                  {"corners", corners_json},
                   {"files", files}};
   return JsonText(json);
+}
+
+Result<bool> CornersWereGiven(const fs::path& results) {
+  TELESTRAIN_ASSIGN_OR_RETURN(
+      const Json inputs, ReadJson(results / "inputs.json", kInputsSchema, "telestrain detect"));
+  return inputs.contains("corners") && !inputs["corners"].is_null();
 }
 
 Status RequireSameInputs(const Session& session, const fs::path& results) {

@@ -16,9 +16,13 @@ enum class Step { kDetect, kCalibrate, kVerify, kMeasure, kRender, kReport };
 // Removes the files of this step and of those that depend on it.
 Status RemoveOutputsFrom(const std::filesystem::path& results, Step step);
 
-// The text of inputs.json: the session's facts, the program and the SHA-256 of every input file.
-// Fails (kBadInput) when an image is unreadable, cut short or of another size than the sensor's.
-Result<std::string> InputsText(const Session& session);
+// The text of inputs.json: the session's facts, the program and the SHA-256 of every input file,
+// among them `corners` when the target's corners come from there. Fails (kBadInput) when an image
+// is unreadable, cut short or of another size than the sensor's.
+Result<std::string> InputsText(const Session& session, const std::filesystem::path& corners);
+
+// Whether the results were made from given corners instead of calibration images.
+Result<bool> CornersWereGiven(const std::filesystem::path& results);
 
 // Fails (kBadInput) when inputs.json is missing or was made from another session.toml,
 // tables or images.

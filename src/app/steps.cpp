@@ -55,21 +55,22 @@ Status SayWhy(const fs::path& results, Console& console) {
   return {};
 }
 
-std::string Count(std::size_t number, const std::string& noun) {
-  return std::to_string(number) + " " + noun + (number == 1 ? "" : "s");
-}
-
 }  // namespace
 
-Result<Session> OpenSession(const fs::path& folder, const fs::path& results) {
-  TELESTRAIN_ASSIGN_OR_RETURN(Session session, ReadSession(folder));
+Result<Session> OpenSession(const fs::path& folder, const fs::path& results,
+                            const fs::path& corners) {
+  TELESTRAIN_ASSIGN_OR_RETURN(Session session, ReadSession(folder, !corners.empty()));
   std::error_code code;
   if (fs::equivalent(folder, results, code))
     return Error{ErrorKind::kUsage,
                  "--out is the session folder itself; name another folder, the "
                  "recorded session stays as it is"};
+  if (!corners.empty() && fs::equivalent(corners, results / "corners.vnl", code))
+    return Error{ErrorKind::kUsage,
+                 "--corners is the corners.vnl of --out itself, which this step writes anew; copy "
+                 "it elsewhere, or leave --corners out to use it as it is"};
   // Bad input must be known before anything in the results folder is touched.
-  TELESTRAIN_ASSIGN_OR_RETURN(const std::string inputs, InputsText(session));
+  TELESTRAIN_ASSIGN_OR_RETURN(const std::string inputs, InputsText(session, corners));
   TELESTRAIN_RETURN_IF_ERROR(EnsureFolder(results));
   TELESTRAIN_RETURN_IF_ERROR(RemoveOutputsFrom(results, Step::kDetect));
   TELESTRAIN_RETURN_IF_ERROR(WriteFileAtomically(results / "inputs.json", inputs));
@@ -77,55 +78,28 @@ Result<Session> OpenSession(const fs::path& folder, const fs::path& results) {
 }
 
 Result<Session> ReopenSession(const fs::path& folder, const fs::path& results) {
-  TELESTRAIN_ASSIGN_OR_RETURN(Session session, ReadSession(folder));
+  TELESTRAIN_ASSIGN_OR_RETURN(const bool corners_are_given, CornersWereGiven(results));
+  TELESTRAIN_ASSIGN_OR_RETURN(Session session, ReadSession(folder, corners_are_given));
   TELESTRAIN_RETURN_IF_ERROR(RequireSameInputs(session, results));
   return session;
 }
 
-Status DetectStep(const Session& session, const fs::path& results, Console& console) {
-  TELESTRAIN_ASSIGN_OR_RETURN(const Detection detection, DetectAll(session, console));
+Status DetectStep(const Session& session, const fs::path& results, const fs::path& corners,
+                  Console& console) {
+  TELESTRAIN_ASSIGN_OR_RETURN(
+      const Detection detection,
+      corners.empty() ? DetectAll(session, console) : ImportCorners(session, corners, console));
   TELESTRAIN_RETURN_IF_ERROR(WriteDetection(session, detection, results));
   std::size_t found = 0, crosses = 0;
   for (const BoardObservation& board : detection.boards) found += board.rejected_because.empty();
   for (const CrossObservation& cross : detection.crosses) crosses += cross.center.has_value();
   console.Say("detect     " + std::to_string(found) + " of " +
-              Count(detection.boards.size(), "board view") + " used, " + std::to_string(crosses) +
-              " of " + std::to_string(detection.crosses.size()) + " ruler crosses");
+              CountText(detection.boards.size(), "board view") + " used, " +
+              std::to_string(crosses) + " of " + std::to_string(detection.crosses.size()) +
+              " ruler crosses");
   for (const BoardObservation& board : detection.boards)
     if (!board.rejected_because.empty())
       console.Note("  not used: " + board.image + " " + board.view + ": " + board.rejected_because);
-  return {};
-}
-
-Status CalibrateStep(const Session& session, const fs::path& results, Console& console) {
-  TELESTRAIN_RETURN_IF_ERROR(RequireConsistent(results));
-  TELESTRAIN_ASSIGN_OR_RETURN(const std::vector<BoardObservation> boards,
-                              ReadDetectedBoards(session, results));
-  TELESTRAIN_RETURN_IF_ERROR(RemoveOutputsFrom(results, Step::kCalibrate));
-  TELESTRAIN_ASSIGN_OR_RETURN(const Calibration calibration, Calibrate(session, boards));
-  TELESTRAIN_ASSIGN_OR_RETURN(const auto made_from,
-                              HashesOf(results, {"inputs.json", "corners.vnl", "detection.json"}));
-  TELESTRAIN_RETURN_IF_ERROR(
-      WriteFileAtomically(results / "residuals.csv", ResidualsCsv(session, calibration)));
-  TELESTRAIN_RETURN_IF_ERROR(
-      WriteJson(results / "calibration.json", CalibrationJson(session, calibration, made_from)));
-  const AmbiguityDecision& decision = calibration.seed.decision;
-  if (decision.stage_pairs == 0)
-    console.Warn(
-        "no stage move among the images: the two-fold ambiguity was decided by the nominal "
-        "views alone");
-  else if (decision.stage_agreeing < decision.stage_pairs)
-    console.Warn("only " + std::to_string(decision.stage_agreeing) + " of " +
-                 std::to_string(decision.stage_pairs) +
-                 " stage moves agree with the nominal views; check calibration.csv");
-  const ArrayCalibration& array = calibration.bundle.state.array;
-  console.Say("calibrate  magnification " + FormatFixed(array.lens.magnification_px_per_mm, 4) +
-              " px/mm, distortion " + ToText(array.model) + ", reprojection RMS " +
-              FormatFixed(calibration.all.rms_px, 4) + " px over " +
-              Count(static_cast<std::size_t>(calibration.all.corners), "corner"));
-  if (calibration.corners_rejected > 0)
-    console.Note("  " + Count(static_cast<std::size_t>(calibration.corners_rejected), "corner") +
-                 " rejected as outliers; calibration.json lists where");
   return {};
 }
 
@@ -146,10 +120,10 @@ Status VerifyStep(const Session& session, const fs::path& results, Console& cons
       WriteJson(results / "ruler.json", RulerJson(session, lengths, made_from)));
   const RulerSummary summary = Summarise(lengths);
   if (summary.count == 0)
-    console.Say("verify     none of " + Count(lengths.size(), "ruler image") +
+    console.Say("verify     none of " + CountText(lengths.size(), "ruler image") +
                 " could be measured");
   else
-    console.Say("verify     " + Count(static_cast<std::size_t>(summary.count), "ruler length") +
+    console.Say("verify     " + CountText(static_cast<std::size_t>(summary.count), "ruler length") +
                 ", error mean " + FormatFixed(summary.mean_error_um, 3) + " um, sd " +
                 FormatFixed(summary.sd_error_um, 3) + " um, largest " +
                 FormatFixed(summary.max_abs_error_um, 3) + " um");
@@ -176,8 +150,8 @@ Status MeasureStep(const Session& session, const fs::path& results, Console& con
   TELESTRAIN_RETURN_IF_ERROR(WriteFileAtomically(results / "strain.csv", StrainCsv(measurement)));
   TELESTRAIN_RETURN_IF_ERROR(
       WriteJson(results / "strain.json", StrainJson(measurement, made_from)));
-  console.Say("measure    " + Count(measurement.states.size(), "state") + ", " +
-              Count(measurement.grid.points.size(), "surface point") + ", pipe diameter " +
+  console.Say("measure    " + CountText(measurement.states.size(), "state") + ", " +
+              CountText(measurement.grid.points.size(), "surface point") + ", pipe diameter " +
               FormatFixed(2 * measurement.grid.pipe.radius_mm, 4) + " mm");
   for (const MeasuredState& state : measurement.states)
     console.Note("  " + state.table.image + ": " + FormatFixed(1e6 * state.strain.axial_strain, 2) +

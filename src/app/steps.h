@@ -1,9 +1,12 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
+#include <string>
 
 #include "base/console.h"
 #include "base/result.h"
+#include "calibration/array_calibration.h"
 #include "session/session.h"
 
 namespace telestrain {
@@ -13,15 +16,34 @@ namespace telestrain {
 // removes its own and all later steps' files, so that a results folder never mixes two runs.
 
 // Reads the session, prepares the results folder and writes inputs.json with every file's hash.
+// With `corners` (a corners.vnl) the calibration images need not be there.
 Result<Session> OpenSession(const std::filesystem::path& folder,
-                            const std::filesystem::path& results);
+                            const std::filesystem::path& results,
+                            const std::filesystem::path& corners = {});
 // For the steps after `detect`: reads the session and requires that inputs.json was made from it.
 Result<Session> ReopenSession(const std::filesystem::path& folder,
                               const std::filesystem::path& results);
 
-Status DetectStep(const Session& session, const std::filesystem::path& results, Console& console);
+Status DetectStep(const Session& session, const std::filesystem::path& results,
+                  const std::filesystem::path& corners, Console& console);
+
+// A calibration.json with its hash.
+struct EarlierCalibration {
+  std::filesystem::path path;
+  ArrayCalibration array;
+  std::string sha256;
+};
+Result<EarlierCalibration> ReadEarlier(const std::filesystem::path& path);
+
+// How `calibrate` works beside its defaults.
+struct CalibrateChoices {
+  bool robust = false;  // weigh outliers down instead of removing them
+  // An earlier calibration; writes comparison.json. Read before the results folder is opened,
+  // where it may lie.
+  std::optional<EarlierCalibration> earlier;
+};
 Status CalibrateStep(const Session& session, const std::filesystem::path& results,
-                     Console& console);
+                     const CalibrateChoices& choices, Console& console);
 Status VerifyStep(const Session& session, const std::filesystem::path& results, Console& console);
 Status MeasureStep(const Session& session, const std::filesystem::path& results, Console& console);
 Status RenderStep(const std::filesystem::path& results, Console& console);

@@ -28,12 +28,6 @@ struct SeedBoard {
   }
 };
 
-double Median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 Result<std::vector<SeedBoard>> FitHomographies(const CalibrationData& data) {
   std::vector<SeedBoard> boards;
   for (const BoardData& board : data.boards) {
@@ -48,11 +42,31 @@ Result<std::vector<SeedBoard>> FitHomographies(const CalibrationData& data) {
   return boards;
 }
 
+int BoardsIn(const std::vector<SeedBoard>& boards, std::size_t view) {
+  return static_cast<int>(std::count_if(boards.begin(), boards.end(), [&](const SeedBoard& b) {
+    return b.data->view == static_cast<int>(view);
+  }));
+}
+
+// A group that sees nothing is a board that was covered or never there, not a matter of numbers.
+Status RequireEveryGroup(const Session& session, const std::vector<SeedBoard>& boards) {
+  for (const std::string& group : session.Groups()) {
+    int count = 0;
+    for (std::size_t view = 0; view < session.views.size(); ++view)
+      if (session.views[view].group == group) count += BoardsIn(boards, view);
+    if (count == 0)
+      return EstimationFailed(
+          "no image shows the target's board of group '" + group +
+          "' to two of its views: without it nothing ties this group to the others; see the "
+          "reasons in detection.json, and take images with both boards of the plate in the fields");
+  }
+  return {};
+}
+
 Status RequireEnoughBoards(const Session& session, const std::vector<SeedBoard>& boards) {
+  TELESTRAIN_RETURN_IF_ERROR(RequireEveryGroup(session, boards));
   for (std::size_t view = 0; view < session.views.size(); ++view) {
-    const auto count = std::count_if(boards.begin(), boards.end(), [&](const SeedBoard& b) {
-      return b.data->view == static_cast<int>(view);
-    });
+    const int count = BoardsIn(boards, view);
     if (count < kMinBoardsPerView)
       return EstimationFailed("view '" + session.views[view].name + "' sees the target in " +
                               std::to_string(count) + " usable images, at least " +
@@ -174,7 +188,7 @@ void CheckByStage(const Session& session, const CalibrationData& data,
   if (decision.stage_pairs == 0) decision.smallest_stage_margin_px = 0;
 }
 
-Status RequireAgreement(const AmbiguityDecision& decision) {
+Status RequireDecision(const AmbiguityDecision& decision) {
   if (5 * decision.stage_agreeing >= 4 * decision.stage_pairs) return {};
   return EstimationFailed(
       "the stage moves contradict the nominal views: only " +
@@ -261,10 +275,14 @@ Result<ArraySeed> SeedArray(const Session& session, const CalibrationData& data)
     board.rotations = RotationsFromHomography(board.homography, seed.lens.magnification_px_per_mm);
   DecideByGeometry(session, boards, seed.decision);
   CheckByStage(session, data, boards, seed.decision);
-  TELESTRAIN_RETURN_IF_ERROR(RequireAgreement(seed.decision));
+  TELESTRAIN_RETURN_IF_ERROR(RequireDecision(seed.decision));
   for (const NominalView& view : session.views)
     seed.views.push_back(session.NominalTelecentricView(view));
   seed.poses.resize(data.images.size());
+  std::vector<BranchedBoard> branched;
+  for (const SeedBoard& b : boards)
+    branched.push_back({b.data->image, b.data->view, b.rotations.camera_from_target, b.branch});
+  seed.screening = ScreenBranches(branched);
   AverageRotations(boards, seed);
   SolveTranslations(boards, seed);
   return seed;

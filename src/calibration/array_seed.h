@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "calibration/array_calibration.h"
+#include "calibration/branch_screening.h"
 #include "calibration/calibration_data.h"
 
 namespace telestrain {
@@ -33,6 +34,7 @@ struct ArraySeed {
   std::vector<double> view_magnification_px_per_mm;  // median over the boards of each view
   std::vector<std::optional<Eigen::Vector2d>> view_magnifications_of_paper;  // the paper's Eq. 6
   AmbiguityDecision decision;
+  BranchScreening screening;  // third witness (MODEL.md 3)
 };
 
 // Homographies, one magnification, the two-fold rotations and their decision, rotation averaging

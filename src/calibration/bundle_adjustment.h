@@ -11,30 +11,64 @@ namespace telestrain {
 struct ArrayState {
   ArrayCalibration array;         // covariance filled by AdjustBundle on request
   std::vector<TargetPose> poses;  // one per CalibrationData::images
+  TargetShape target;             // nominal when empty
   Eigen::Vector3d stage_axis_in_array = Eigen::Vector3d::UnitZ();
+  double stage_scale_relative = 0;  // error common to all stated travels
 };
 
 struct BundleOptions {
-  DistortionModel model{};        // coefficients that are estimated; the others keep their value
+  LensModel model;                // coefficients that are estimated; the others keep their value
   double stage_sigma_mm = 0.005;  // of one stage travel, per axis
+  // Cauchy's loss of each corner's whitened residual vector, with this scale in standard deviations
+  // (3 costs 5 % of efficiency and bounds the pull of a mistake); 0: least squares.
+  double robust_sigmas = 0;
+  // Frees the boards' bows with priors of at least 10 um, for a likelihood-ratio test.
+  bool estimate_bow = false;
   bool want_covariance = false;
   int max_iterations = 100;
 };
 
-struct BundleResult {
-  ArrayState state;
-  double chi2 = 0;          // whitened residuals, stage included
-  int residual_count = 0;   // scalars
-  int parameter_count = 0;  // free
-  int iterations = 0;
-  int gauge_pose = 0;       // index of the pose that was held fixed
-  std::string termination;  // the solver's own words
+// Of the global parameters together: lenses and views as in ArrayCalibration::ParameterNames, then
+// the free ones of the target and of the stage.
+struct BundleCovariance {
+  std::vector<std::string> names;
+  Eigen::MatrixXd joint;  // units as the names say
+  // Of the lenses and views: of everything, and with the target exactly as certified.
+  Eigen::MatrixXd array, array_of_noise;
+  // Marginal, one per image: rotation (rad, Exp(w) R, about the array's axes), origin (mm). Zero
+  // for the gauge pose.
+  std::vector<Eigen::Matrix<double, 6, 6>> poses;
 };
 
-// Minimises the whitened reprojection error of every corner over lens, views, poses and the stage's
-// direction (MODEL.md Eq. 12; Levenberg-Marquardt in Ceres, one residual block per board with
-// analytic derivatives). Held fixed: the principal point, the pose seen by the most views (gauge).
-// Fails (kEstimationFailed) when the normal matrix is singular or the solver does not converge.
+struct BundleResult {
+  ArrayState state;
+  // Twice the cost, by what it is of: the corners (a robust loss counted as such), the target's
+  // priors, the stage's travels with the prior of their common scale.
+  double chi2 = 0, chi2_of_priors = 0, chi2_of_stage = 0;
+  int residual_count = 0;  // scalars of the corners
+  int prior_count = 0;     // free numbers of the target's shape; each has one prior
+  int stage_count = 0;     // scalars of the stage: three per move and one prior
+  // Of lenses, views and poses: what the corners pay for. The shape's own numbers are balanced by
+  // their priors and the stage's three by its residuals, so that the expected chi2 is
+  // residual_count - parameter_count (to a few units in the thousands).
+  int parameter_count = 0;
+  int iterations = 0;
+  int gauge_pose = 0;           // index of the pose that was held fixed
+  std::string termination;      // the solver's own words
+  BundleCovariance covariance;  // on request
+
+  double TotalChi2() const { return chi2 + chi2_of_priors + chi2_of_stage; }
+  // sqrt(chi2 / degrees of freedom) of the corners.
+  double Sigma0() const;
+};
+
+// Minimises the whitened reprojection error of every corner over lenses, views, poses, the target's
+// shape within its certificate and the stage's direction (MODEL.md Eq. 12; Levenberg-Marquardt in
+// Ceres, one condensed residual block per board). Held fixed: the principal point, the pose seen by
+// the most views (gauge), the first sub-board (it defines the target frame), and whatever the
+// certificate states without uncertainty. The covariance is scaled by max(1, Sigma0).
+// Fails (kEstimationFailed) when the information matrix is singular or the solver does not
+// converge. One thread; the same bytes on every machine.
 Result<BundleResult> AdjustBundle(const CalibrationData& data, const ArrayState& start,
                                   const BundleOptions& options);
 

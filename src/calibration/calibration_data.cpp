@@ -22,22 +22,41 @@ Eigen::Matrix2d Whitening(const Eigen::Matrix2d& covariance_px2, double floor_px
   return lower.inverse();
 }
 
-BoardData MakeBoard(const BoardObservation& observation, const Eigen::Matrix3Xd& corners_in_target,
-                    double floor_px) {
+// The index of the group's sub-board and its geometry.
+BoardGeometry GeometryOfGroup(const TargetSpec& target, const std::string& group) {
+  const SubBoard* sub_board = target.FindBoard(group);
+  TELESTRAIN_CHECK(sub_board != nullptr, "a checked session has a board for every group");
+  return GeometryOfBoard(target, static_cast<int>(sub_board - target.boards.data()));
+}
+
+BoardData MakeBoard(const BoardObservation& observation, const TargetSpec& target,
+                    const BoardGeometry& geometry, double floor_px) {
   BoardData board;
+  board.geometry = geometry;
   for (std::size_t i = 0; i < observation.corners.size(); ++i)
     if (observation.corners[i]) board.corner.push_back(static_cast<int>(i));
   const auto count = static_cast<Eigen::Index>(board.corner.size());
-  board.corners_in_target_mm.resize(3, count);
+  board.corners_in_board_mm.resize(2, count);
   board.pixels.resize(2, count);
+  board.whitening.reserve(board.corner.size());
   for (Eigen::Index i = 0; i < count; ++i) {
     const int corner = board.corner[static_cast<std::size_t>(i)];
     const ImagePoint& point = *observation.corners[static_cast<std::size_t>(corner)];
-    board.corners_in_target_mm.col(i) = corners_in_target.col(corner);
+    board.corners_in_board_mm.col(i) =
+        Eigen::Vector2d((corner % target.columns - 0.5 * (target.columns - 1)) * target.square_mm,
+                        (corner / target.columns - 0.5 * (target.rows - 1)) * target.square_mm);
     board.pixels.col(i) = point.pixel;
     board.whitening.push_back(Whitening(point.covariance_px2, floor_px));
   }
+  board.corners_in_target_mm = CornersOfBoard(geometry, board.corners_in_board_mm, {});
   return board;
+}
+
+constexpr int kLeastCorners = 4;  // three make an affine image; the fourth checks it
+
+int SeenCorners(const BoardObservation& observation) {
+  return static_cast<int>(std::count_if(observation.corners.begin(), observation.corners.end(),
+                                        [](const auto& corner) { return corner.has_value(); }));
 }
 
 }  // namespace
@@ -48,12 +67,14 @@ void BoardData::RemoveCorners(const std::vector<bool>& remove) {
     if (remove[i]) continue;
     corner[static_cast<std::size_t>(kept)] = corner[i];
     whitening[static_cast<std::size_t>(kept)] = whitening[i];
+    corners_in_board_mm.col(kept) = corners_in_board_mm.col(static_cast<Eigen::Index>(i)).eval();
     corners_in_target_mm.col(kept) = corners_in_target_mm.col(static_cast<Eigen::Index>(i)).eval();
     pixels.col(kept) = pixels.col(static_cast<Eigen::Index>(i)).eval();
     ++kept;
   }
   corner.resize(static_cast<std::size_t>(kept));
   whitening.resize(static_cast<std::size_t>(kept));
+  corners_in_board_mm.conservativeResize(2, kept);
   corners_in_target_mm.conservativeResize(3, kept);
   pixels.conservativeResize(2, kept);
 }
@@ -103,6 +124,7 @@ Result<CalibrationData> CollectCalibrationData(const Session& session,
                                                double floor_px) {
   CalibrationData data;
   data.images = session.calibration_images;
+  data.target = session.target;
   data.floor_px = floor_px;
   std::map<std::string, int> image_index;
   for (std::size_t i = 0; i < data.images.size(); ++i)
@@ -118,11 +140,15 @@ Result<CalibrationData> CollectCalibrationData(const Session& session,
       data.rejected.push_back({observation.image, observation.view, observation.rejected_because});
       continue;
     }
-    const SubBoard* sub_board =
-        session.target.FindBoard(session.views[static_cast<std::size_t>(view)].group);
-    TELESTRAIN_CHECK(sub_board != nullptr, "a checked session has a board for every group");
+    const int seen = SeenCorners(observation);
+    if (seen < kLeastCorners) {
+      data.rejected.push_back({observation.image, observation.view,
+                               "fewer than " + std::to_string(kLeastCorners) + " corners", seen});
+      continue;
+    }
+    const std::string& group = session.views[static_cast<std::size_t>(view)].group;
     data.boards.push_back(
-        MakeBoard(observation, session.target.CornersInTarget(*sub_board), floor_px));
+        MakeBoard(observation, session.target, GeometryOfGroup(session.target, group), floor_px));
     data.boards.back().image = image->second;
     data.boards.back().view = view;
   }

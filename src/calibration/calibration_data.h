@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/result.h"
+#include "calibration/target_shape.h"
 #include "session/session.h"
 #include "target/board_observation.h"
 
@@ -12,10 +13,12 @@ namespace telestrain {
 
 // One board in one view of one image, ready for estimation.
 struct BoardData {
-  int image = 0;            // index into CalibrationData::images
-  int view = 0;             // index into Session::views
-  std::vector<int> corner;  // index in the full grid of each column below
-  Eigen::Matrix3Xd corners_in_target_mm;
+  int image = 0;                          // index into CalibrationData::images
+  int view = 0;                           // index into Session::views
+  std::vector<int> corner;                // index in the full grid of each column below
+  BoardGeometry geometry;                 // of the sub-board, by its certificate
+  Eigen::Matrix2Xd corners_in_board_mm;   // by its certificate, from the board's middle
+  Eigen::Matrix3Xd corners_in_target_mm;  // by its certificate
   Eigen::Matrix2Xd pixels;
   std::vector<Eigen::Matrix2d> whitening;  // W with W^T W = inverse covariance of each corner
 
@@ -35,6 +38,7 @@ struct RejectedObservation {
 struct CalibrationData {
   std::vector<CalibrationImage> images;  // those that two directions see
   std::vector<BoardData> boards;         // ordered by image, then view
+  TargetSpec target;                     // its certificate gives the priors of the adjustment
   std::vector<RejectedObservation> rejected;
   double floor_px = 0;  // that the whitening holds beside the corners' own noise
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json_fwd.hpp>
@@ -10,6 +11,9 @@
 namespace telestrain {
 
 inline constexpr const char* kCalibrationSchema = "telestrain.calibration/1";
+// Keys of TelecentricLens::distortion.
+inline constexpr std::array<const char*, 5> kDistortionKeys{"k1_per_mm2", "k2_per_mm4", "p1_per_mm",
+                                                            "p2_per_mm", "k3_per_mm6"};
 
 // calibration.json; `made_from` names the inputs with their SHA-256.
 nlohmann::ordered_json CalibrationJson(const Session& session, const Calibration& calibration,

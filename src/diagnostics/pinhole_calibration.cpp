@@ -144,10 +144,10 @@ Eigen::Vector3d MiddleOfCorners_mm(const CalibrationData& data, const ArrayState
 std::vector<PinholeView> PinholeViewsAt(const Session& session, const CalibrationData& data,
                                         const ArrayState& telecentric,
                                         const PinholeOptions& options) {
-  const TelecentricLens& lens = telecentric.array.lens;
   std::vector<PinholeView> views;
   for (std::size_t v = 0; v < telecentric.array.views.size(); ++v) {
     const TelecentricView& source = telecentric.array.views[v];
+    const TelecentricLens& lens = telecentric.array.LensOf(v);
     PinholeView view;
     view.name = source.name;
     view.group = source.group;
@@ -160,7 +160,8 @@ std::vector<PinholeView> PinholeViewsAt(const Session& session, const Calibratio
     const Eigen::Vector3d mirror(sign, 1, sign);  // u reversed, the axis towards the object
     view.camera_from_array = mirror.asDiagonal() * source.Rotation();
     const Eigen::Vector2d offset_mm =
-        source.offset_mm - (view.principal_px - lens.center_px) / lens.magnification_px_per_mm;
+        source.offset_mm -
+        (view.principal_px - lens.center_px).cwiseQuotient(lens.Scales_px_per_mm());
     const Eigen::Vector3d middle = MiddleOfCorners_mm(data, telecentric, static_cast<int>(v));
     view.origin_in_camera_mm = {
         sign * offset_mm.x(), offset_mm.y(),

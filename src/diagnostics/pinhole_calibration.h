@@ -49,7 +49,9 @@ Result<PinholeCalibration> CalibratePinhole(const Session& session, const Calibr
                                             const PinholeOptions& options);
 
 // What the adjustment starts from: every view as a pinhole camera at the working distance from the
-// middle of what it saw of the target.
+// middle of what it saw of the target. Of the view's lens it takes scale and axis: a pinhole view
+// has square pixels, so an aspect is left to the residuals, and its perspective of 1 / D stands in
+// the place of the telecentricity (a lens of telecentricity kappa is a pinhole 1 / kappa away).
 std::vector<PinholeView> PinholeViewsAt(const Session& session, const CalibrationData& data,
                                         const ArrayState& telecentric,
                                         const PinholeOptions& options);

@@ -125,26 +125,23 @@ class Agreement {
                              first.y + (y + 0.5) * factor - 0.5);
         values_.push_back(reduced.values[static_cast<std::size_t>(y) * reduced.width + x]);
       }
-    const TelecentricView& view = array.views[static_cast<std::size_t>(pair.first)];
-    for (const Eigen::Vector2d& pixel : pixels_)
-      origins_.push_back(view.PointOnRay(array.lens.IdealFromPixel(pixel)));
+    for (const Eigen::Vector2d& pixel : pixels_) rays_.push_back(array.RayOf(pair.first, pixel));
   }
 
   double Score(const Cylinder& pipe) const {
-    const TelecentricView& view = array_.views[static_cast<std::size_t>(pair_.second)];
     double fg = 0, ff = 0, gg = 0;
     std::size_t valid = 0;
-    for (std::size_t i = 0; i < origins_.size(); ++i) {
-      const auto hit = pipe.Enter(origins_[i], pair_.first_axis);
+    for (std::size_t i = 0; i < rays_.size(); ++i) {
+      const auto hit = pipe.Enter(rays_[i].point_in_array_mm, rays_[i].direction_in_array);
       if (!hit || pipe.Normal(*hit).dot(pair_.second_axis) > -kMinFacing) continue;
-      const auto value = second_.Sample(Project(array_.lens, view, *hit));
+      const auto value = second_.Sample(array_.Project(pair_.second, *hit));
       if (!value) continue;
       fg += values_[i] * *value;
       ff += values_[i] * values_[i];
       gg += *value * *value;
       ++valid;
     }
-    if (5 * valid < origins_.size()) return -1;  // too little of the patch is common
+    if (5 * valid < rays_.size()) return -1;  // too little of the patch is common
     return fg / std::sqrt(std::max(1e-9, ff * gg));
   }
 
@@ -153,7 +150,7 @@ class Agreement {
   const StereoPair& pair_;
   ReducedRegion second_;
   std::vector<Eigen::Vector2d> pixels_;
-  std::vector<Eigen::Vector3d> origins_;
+  std::vector<ImageRay> rays_;  // of the pixels
   std::vector<float> values_;
 };
 
@@ -210,10 +207,8 @@ Result<std::vector<StereoPair>> StereoPairs(const Session& session, const ArrayC
     if (members.size() < 2)
       return BadInput("session.toml: group '" + group +
                       "' has one view; measuring the pipe needs two views that see the same patch");
-    const auto axis_of = [&](int index) -> Eigen::Vector3d {
-      const Eigen::Vector3d ray = array.views[static_cast<std::size_t>(index)].RayDirection();
-      const auto& nominal = session.views[static_cast<std::size_t>(index)].axis_in_array;
-      return ray.dot(nominal) >= 0 ? ray : Eigen::Vector3d(-ray);
+    const auto axis_of = [&](int index) {
+      return array.views[static_cast<std::size_t>(index)].ViewingDirection();
     };
     pairs.push_back({group, members[0], members[1], axis_of(members[0]), axis_of(members[1])});
   }
@@ -227,13 +222,13 @@ Result<std::vector<StereoPair>> StereoPairs(const Session& session, const ArrayC
 
 std::optional<Eigen::Vector2d> TransferPixel(const ArrayCalibration& array, const StereoPair& pair,
                                              const Cylinder& pipe, const Eigen::Vector2d& pixel) {
-  const TelecentricView& first = array.views[static_cast<std::size_t>(pair.first)];
-  const auto hit = pipe.Enter(first.PointOnRay(array.lens.IdealFromPixel(pixel)), pair.first_axis);
+  const ImageRay ray = array.RayOf(pair.first, pixel);
+  const auto hit = pipe.Enter(ray.point_in_array_mm, ray.direction_in_array);
   if (!hit) return {};
   const Eigen::Vector3d normal = pipe.Normal(*hit);
   if (normal.dot(pair.first_axis) > -kMinFacing || normal.dot(pair.second_axis) > -kMinFacing)
     return {};
-  return Project(array.lens, array.views[static_cast<std::size_t>(pair.second)], *hit);
+  return array.Project(pair.second, *hit);
 }
 
 Result<PipeLocation> LocatePipe(const Session& session, const ArrayCalibration& array,
@@ -247,9 +242,9 @@ Result<PipeLocation> LocatePipe(const Session& session, const ArrayCalibration& 
   PipeLocation location;
   for (int factor = coarsest, level = 0; level < 3; ++level, factor = std::max(1, factor / 2)) {
     const Agreement agreement(array, pair, image, first, second, factor);
-    const double pixel_mm = factor / array.lens.magnification_px_per_mm;
+    const double pixel_mm = factor / array.Magnification_px_per_mm();
     if (level == 0) p = SearchExhaustively(agreement, frame, pixel_mm);
-    const double angle_rad = 2 * pixel_mm / (first.width / array.lens.magnification_px_per_mm);
+    const double angle_rad = 2 * pixel_mm / (first.width / array.Magnification_px_per_mm());
     location.zncc = Refine(agreement, frame, {pixel_mm, pixel_mm, angle_rad, angle_rad}, 0.2, p);
   }
   location.pipe = frame.Pipe(p);

@@ -94,7 +94,7 @@ Result<PipeMeasurement> MeasurePipe(const Session& session, const ArrayCalibrati
   PipeMeasurement measurement;
   measurement.grid = tracker.grid();
   measurement.options = options;
-  measurement.magnification_px_per_mm = array.lens.magnification_px_per_mm;
+  measurement.magnification_px_per_mm = array.Magnification_px_per_mm();
   for (std::size_t row = 0; row < session.pipe_states.size(); ++row) {
     TELESTRAIN_ASSIGN_OR_RETURN(const GrayImage image, ReadPipeImage(session, row));
     auto strain = AnalyseState(array, tracker.grid(), tracker.Track(image));

@@ -74,24 +74,11 @@ std::vector<BudgetLine> Budget_um(const Session& session, const ArrayCalibration
   const Eigen::Vector3d direction = span.normalized();
   const double corner_part =
       std::sqrt(direction.dot((end_a.covariance_mm2 + end_b.covariance_mm2) * direction));
-  const double calibration_part =
+  const CalibrationParts calibration =
       CalibrationPart(array, [&](const ArrayCalibration& moved) { return Length_mm(moved, a, b); });
-  const TargetSpec& target = session.target;
-  const std::vector<std::string> groups = session.Groups();
-  const SubBoard* board_a = target.FindBoard(groups[0]);
-  const SubBoard* board_b = target.FindBoard(groups[1]);
-  const double separation_mm = (board_b->center_in_target_mm - board_a->center_in_target_mm).norm();
-  // The corner positions are uncertain by sigma_square: the mean pitch by that over the board's
-  // width. The separation bridges the fields, so the pitch acts on what exceeds it only.
-  const double pitch_relative =
-      target.sigma_square_um / 1000 / (target.square_mm * (target.columns - 1));
-  // Half-width of a rectangular distribution, acting on the ruler's slope.
-  const double coplanarity_um = target.coplanarity_um / std::sqrt(3.0);
   return {{"cross positions", 1000 * corner_part},
-          {"calibration", 1000 * calibration_part},
-          {"target: separation of the boards", target.sigma_separation_um},
-          {"target: pitch", 1000 * pitch_relative * std::abs(span.norm() - separation_mm)},
-          {"target: coplanarity", coplanarity_um * std::abs(direction.z())},
+          {"calibration", 1000 * calibration.noise},
+          {"target certificate", 1000 * calibration.certificate},
           {"ruler certificate", session.ruler.sigma_length_um}};
 }
 

@@ -231,12 +231,14 @@ void FillBudget(const ArrayCalibration& array, const PipeGrid& grid,
   const double noise_mm = std::hypot(NoiseAt_mm(fits[0], located, axis, ends[0]),
                                      NoiseAt_mm(fits[1], located, axis, ends[1]));
   const double bias_mm =
-      kCorrelationBias_px / array.lens.magnification_px_per_mm / std::sqrt(3.0) * std::sqrt(2.0);
+      kCorrelationBias_px / array.Magnification_px_per_mm() / std::sqrt(3.0) * std::sqrt(2.0);
+  const CalibrationParts calibration = CalibrationPart(array, [&](const ArrayCalibration& moved) {
+    return LongBaseStrainOf(moved, grid, tracked, fits[0], fits[1]);
+  });
   state.budget = {{"image noise", noise_mm / base_mm},
                   {"correlation bias", bias_mm / base_mm},
-                  {"calibration", CalibrationPart(array, [&](const ArrayCalibration& moved) {
-                     return LongBaseStrainOf(moved, grid, tracked, fits[0], fits[1]);
-                   })}};
+                  {"calibration", calibration.noise},
+                  {"target certificate", calibration.certificate}};
   state.standard_uncertainty = Combine(state.budget);
 }
 

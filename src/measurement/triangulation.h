@@ -22,9 +22,13 @@ struct TriangulatedPoint {
   double residual_px = 0;
 };
 
-// Least-squares intersection of the parallel rays of two or more views, all pixels weighted alike,
-// so that displacements are linear in the pixels (MODEL.md Eq. 13). Throws std::logic_error for
-// fewer than two measurements or views that look along the same direction.
+// Least-squares intersection of the rays of two or more views (MODEL.md Eq. 13), in mm of the
+// object: all pixels weighted alike where all views have one scale, so that displacements are
+// linear in the pixels. With a residual telecentricity kappa the equations stay linear in the
+// point,
+//   (A - kappa s q r3^T) P = q (1 + kappa depth_offset) - t,    q: the ideal image of the pixel
+// and a view counts by 1 + kappa depth, which is the same for all views to 1e-3. Throws
+// std::logic_error for fewer than two measurements or views that look along the same direction.
 TriangulatedPoint Triangulate(const ArrayCalibration& array,
                               const std::vector<ViewMeasurement>& measurements);
 

@@ -18,9 +18,16 @@ struct BudgetLine {
 // Root sum of squares of the lines.
 double Combine(const std::vector<BudgetLine>& budget);
 
-// Standard uncertainty that the calibration's covariance gives to a scalar result: sqrt(g C g^T)
-// with g by central differences over one standard deviation of every parameter.
-double CalibrationPart(const ArrayCalibration& array,
-                       const std::function<double(const ArrayCalibration&)>& result);
+// What the calibration gives to a result, in its unit.
+struct CalibrationParts {
+  double noise = 0;        // of the calibration's own images: sqrt(g C_noise g^T)
+  double certificate = 0;  // of the target's certificate: sqrt(g (C - C_noise) g^T)
+};
+
+// The two parts of a scalar result from the covariances of the calibration, with g by central
+// differences over one standard deviation of every parameter. Throws std::logic_error when a
+// covariance is missing.
+CalibrationParts CalibrationPart(const ArrayCalibration& array,
+                                 const std::function<double(const ArrayCalibration&)>& result);
 
 }  // namespace telestrain

@@ -43,6 +43,8 @@ TelecentricView Session::NominalTelecentricView(const NominalView& view) const {
       RotationFromRows(view.image_x_in_array, view.image_y_in_array).topRows<2>();
   result.offset_mm = NominalLens().IdealFromPixel(view.region.Middle()) -
                      result.axes_in_array * view.center_in_array_mm;
+  result.depth_sense = result.RayDirection().dot(view.axis_in_array) < 0 ? -1 : 1;
+  result.depth_offset_mm = -result.depth_sense * result.RayDirection().dot(view.center_in_array_mm);
   return result;
 }
 
@@ -54,9 +56,10 @@ std::vector<std::string> Session::Groups() const {
   return groups;
 }
 
-Result<Session> ReadSession(const std::filesystem::path& folder) {
+Result<Session> ReadSession(const std::filesystem::path& folder, bool corners_are_given) {
   TELESTRAIN_ASSIGN_OR_RETURN(Session session, ReadSessionToml(folder / "session.toml"));
   session.folder = folder;
+  session.corners_are_given = corners_are_given;
   TELESTRAIN_RETURN_IF_ERROR(ReadTables(session));
   return session;
 }

@@ -55,6 +55,9 @@ struct TargetSpec {
   double sigma_separation_um = 0;  // standard uncertainty of the distance between the sub-boards
   // Half-width of the rectangular distribution of the height difference between the sub-boards.
   double coplanarity_um = 0;
+  // Standard uncertainty of how far a sub-board's middle stands above its ends, along x and along
+  // y: the boards bend by themselves.
+  double flatness_um = 0;
   std::vector<SubBoard> boards;
 
   int CornerCount() const { return columns * rows; }
@@ -117,6 +120,8 @@ struct Session {
   std::map<std::string, std::string> document;  // free texts for the report
 
   std::vector<CalibrationImage> calibration_images;
+  // The corners of the target come from a file; the calibration images need not be there.
+  bool corners_are_given = false;
   std::vector<std::string> ruler_images;
   std::vector<std::string> gauge_columns;  // names of the gauge columns of pipe.csv
   std::vector<PipeState> pipe_states;      // the first one is the reference state
@@ -132,8 +137,9 @@ struct Session {
 };
 
 // Reads and checks session.toml, calibration.csv, ruler.csv and pipe.csv, and that every image is
-// there. Does not decode images. Fails (kBadInput) with file, line, what was found and the remedy.
-Result<Session> ReadSession(const std::filesystem::path& folder);
+// there (those of the target only unless their corners are given). Does not decode images. Fails
+// (kBadInput) with file, line, what was found and the remedy.
+Result<Session> ReadSession(const std::filesystem::path& folder, bool corners_are_given = false);
 
 // Writes session.toml and the three tables (not the images) into `folder`. Reading them again
 // gives an equal session.

@@ -159,7 +159,7 @@ Status CheckImageFile(const std::string& place, const fs::path& folder, const fs
 
 // The image of a row: inside the folder, there, and in no earlier row of any table.
 Result<std::string> ReadImage(const TableReader& table, int row, const fs::path& folder,
-                              SeenImages& seen) {
+                              SeenImages& seen, bool must_be_there = true) {
   TELESTRAIN_ASSIGN_OR_RETURN(const std::string image, table.Text(row, "image"));
   const std::string place = table.Place(row);
   TELESTRAIN_RETURN_IF_ERROR(CheckImageName(place, image));
@@ -173,7 +173,7 @@ Result<std::string> ReadImage(const TableReader& table, int row, const fs::path&
   if (!is_new)
     return BadInput(place + ": the image '" + image + "' is already used at " + at->second +
                     "; an image belongs to one row of one table: remove one of the two");
-  TELESTRAIN_RETURN_IF_ERROR(CheckImageFile(place, folder, inside));
+  if (must_be_there) TELESTRAIN_RETURN_IF_ERROR(CheckImageFile(place, folder, inside));
   return image;
 }
 
@@ -185,7 +185,8 @@ Status ReadCalibrationTable(Session& session, SeenImages& seen) {
     return BadInput(table.HeaderPlace() + ": has no rows; list at least one image of the target");
   for (int row = 0; row < table.size(); ++row) {
     CalibrationImage& image = session.calibration_images.emplace_back();
-    TELESTRAIN_ASSIGN_OR_RETURN(image.image, ReadImage(table, row, session.folder, seen));
+    TELESTRAIN_ASSIGN_OR_RETURN(
+        image.image, ReadImage(table, row, session.folder, seen, !session.corners_are_given));
     TELESTRAIN_ASSIGN_OR_RETURN(image.pose, table.Text(row, "pose"));
     TELESTRAIN_ASSIGN_OR_RETURN(image.stage_mm, table.Number(row, "stage_mm"));
   }

@@ -96,6 +96,7 @@ FieldReader TargetTable(TargetSpec& target) {
                 Optional("sigma_square_um", Number(target.sigma_square_um, uncertainty)),
                 Optional("sigma_separation_um", Number(target.sigma_separation_um, uncertainty)),
                 Optional("coplanarity_um", Number(target.coplanarity_um, uncertainty)),
+                Optional("flatness_um", Number(target.flatness_um, uncertainty)),
                 Required("board", Tables("[[target.board]]", [&target](const auto& node) {
                            return ReadBoard(node, target);
                          }))});

@@ -146,6 +146,7 @@ void WriteArtefacts(const Session& session, TomlWriter& toml) {
   toml.Number("sigma_square_um", target.sigma_square_um, 0);
   toml.Number("sigma_separation_um", target.sigma_separation_um, 0);
   toml.Number("coplanarity_um", target.coplanarity_um, 0);
+  toml.Number("flatness_um", target.flatness_um, 0);
   for (const SubBoard& board : target.boards) {
     toml.Head("[[target.board]]");
     toml.Text("group", board.group);

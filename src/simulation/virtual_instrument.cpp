@@ -70,6 +70,8 @@ InstrumentView TrueView(const VirtualExperimentOptions& options, const NominalVi
                           result.view.axes_in_array * result.center_in_array_mm;
   const Eigen::Vector3d ray = result.view.RayDirection();
   result.viewing_direction = ray.dot(nominal.axis_in_array) < 0 ? Eigen::Vector3d(-ray) : ray;
+  result.view.depth_sense = ray.dot(result.viewing_direction) < 0 ? -1 : 1;
+  result.view.depth_offset_mm = -result.viewing_direction.dot(result.center_in_array_mm);
   const double angle = random.Uniform(0, 2 * std::numbers::pi);
   const Eigen::Vector2d slope(std::cos(angle), std::sin(angle));
   result.illumination_slope =

@@ -23,6 +23,7 @@ CornerExperiment Dense(const StudyOptions& options, double noise_px) {
   experiment.instrument.seed = options.seed;
   experiment.instrument.threads = options.threads;
   experiment.noise_px = noise_px;
+  experiment.distortion_only = true;  // what the paper could fit
   experiment.poses = options.Scaled(kPaperImages / 2, 9);
   experiment.rulers = options.Scaled(kPaperRulers, 50);
   return experiment;

@@ -64,7 +64,7 @@ Result<Point> RunPoint(double value, const CornerExperiment& base, const StudyOp
         base.noise_px / repeats *
         std::sqrt(1 - static_cast<double>(bundle.parameter_count) / bundle.residual_count);
     point.noise_limit_um +=
-        1000 * base.noise_px / repeats / bundle.state.array.lens.magnification_px_per_mm;
+        1000 * base.noise_px / repeats / bundle.state.array.Magnification_px_per_mm();
     append(all_um, outcome.ruler_error_um);
     append(systematic_um, outcome.ruler_systematic_um);
     append(stated_um, outcome.ruler_calibration_part_um);

@@ -156,7 +156,9 @@ Result<CornerOutcome> RunCornerExperiment(const CornerExperiment& experiment) {
   const Session session = SessionOf(experiment, truth);
   const auto boards = ObserveBoards(
       truth, {experiment.noise_px, KeyOf(experiment, StudyPurpose::kBoardNoise)}, kLeastCorners);
-  TELESTRAIN_ASSIGN_OR_RETURN(outcome.calibration, Calibrate(session, boards));
+  CalibrationOptions options;
+  options.model_choice.distortion_only = experiment.distortion_only;
+  TELESTRAIN_ASSIGN_OR_RETURN(outcome.calibration, Calibrate(session, boards, options));
   const std::uint64_t cross_key = KeyOf(experiment, StudyPurpose::kCrossNoise);
   const ArrayState& state = outcome.calibration.bundle.state;
   const auto lengths =

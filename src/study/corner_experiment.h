@@ -23,6 +23,8 @@ struct CornerExperiment {
   // taken at all.
   bool use_cut_off_boards = true;
   int rulers = 100;
+  // Calibrates with the paper's lens model: distortion, but no residual telecentricity and no bow.
+  bool distortion_only = false;
 };
 
 // What it gave. Errors are in the order of the ruler images.

@@ -42,8 +42,7 @@ std::string Um(double value, int decimals = 3) { return FormatFixed(value, decim
 // Without a systematic error the ruler's sd is sigma_q = noise / m; the scatter of an sd of N
 // values is sd / sqrt(2 N), of their mean sd / sqrt N. Limits are at four of these.
 void CompareNoiseArm(const CalibrationArmOutcome& arm, StudyResult& result) {
-  const double magnification =
-      arm.outcome.calibration.bundle.state.array.lens.magnification_px_per_mm;
+  const double magnification = arm.outcome.calibration.bundle.state.array.Magnification_px_per_mm();
   const double noise_um = 1000 * arm.arm.experiment.noise_px / magnification;
   const double count = arm.ruler_um.count;
   const double part_um = FiguresOf(arm.outcome.ruler_calibration_part_um).rms;

@@ -195,7 +195,7 @@ TEST(MakeResults, TheLabelsSayWhatTheirUncertaintyHolds) {
   std::string verdict;
   const Json results = ResultsOf(WithoutPictures(), verdict);
   EXPECT_EQ(TextAt(TableOf(results, "lens"), "/rows/0/0"),
-            "Magnification (U of the fit, pitch certificate not included)");
+            "Magnification (U with the certificate of the pitch)");
   EXPECT_EQ(TextAt(TableOf(results, "pipe"), "/rows/0/0"), "Outer diameter (U of the fit)");
 }
 

@@ -71,6 +71,12 @@ TEST_F(Coverage, TheWeightedSquareSumIsThatOfItsDegreesOfFreedom) {
   EXPECT_NEAR(Mean(All().chi2_per_freedom), 1, 4 * std::sqrt(2 / (All().freedom * count)));
 }
 
+// Seven needless steps are offered, each accepted by chance once in a thousand times.
+TEST_F(Coverage, ChanceAddsAsManyParametersAsItsLevelAllows) {
+  const double expected = 7e-3 * static_cast<double>(All().rms_px.size());
+  EXPECT_LE(All().richer_models, expected + 4 * std::sqrt(expected));  // 4 sigma of a Poisson count
+}
+
 TEST_F(Coverage, TheResidualsFollowTheRmsLaw) {
   double mean_square_px2 = 0;
   for (const double rms_px : All().rms_px) mean_square_px2 += rms_px * rms_px;

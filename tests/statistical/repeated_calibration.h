@@ -31,7 +31,8 @@ struct RepeatedCalibrations {
   std::map<std::string, std::vector<StatedError>> errors;  // by quantity; one per repeat
   std::vector<double> chi2_per_freedom;                    // one per repeat
   std::vector<double> rms_px;
-  double freedom = 0;  // residuals less parameters, the same in every repeat
+  int richer_models = 0;  // than the truth has
+  double freedom = 0;     // residuals less parameters, the same in every repeat
   double residuals = 0;
   double parameters = 0;
 };

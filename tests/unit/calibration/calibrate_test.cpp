@@ -36,7 +36,7 @@ TEST(Calibrate, ExactCornersGiveTheExactInstrument) {
     const SyntheticArray array = MakeSyntheticArray(options);
     const Calibration calibration = MustCalibrate(array);
     EXPECT_LT(calibration.all.max_px, 1e-6);
-    EXPECT_NEAR(calibration.bundle.state.array.lens.magnification_px_per_mm,
+    EXPECT_NEAR(calibration.bundle.state.array.Magnification_px_per_mm(),
                 array.lens.magnification_px_per_mm, 1e-6);
     for (std::size_t i = 1; i < 4; ++i)
       EXPECT_LT(RelativeRotationError_rad(array, calibration, 0, i), 1e-8);
@@ -67,7 +67,7 @@ TEST(Calibrate, MagnificationLiesWithinItsUncertainty) {
     const SyntheticArray array = MakeSyntheticArray(options);
     const Calibration calibration = MustCalibrate(array);
     const auto& found = calibration.bundle.state.array;
-    EXPECT_NEAR(found.lens.magnification_px_per_mm, array.lens.magnification_px_per_mm,
+    EXPECT_NEAR(found.lenses.front().magnification_px_per_mm, array.lens.magnification_px_per_mm,
                 4 * std::sqrt(found.covariance(0, 0)));  // 4 sigma of the predicted marginal
   }
 }
@@ -79,7 +79,7 @@ TEST(Calibrate, DistortionIsFreedOnlyWhenTheDataWantIt) {
   const Calibration distorted = MustCalibrate(MakeSyntheticArray(options));
   EXPECT_EQ(ToText(distorted.bundle.state.array.model), "k1");
   const auto& array = distorted.bundle.state.array;
-  EXPECT_NEAR(array.lens.distortion[0], 1e-5, 4 * std::sqrt(array.covariance(1, 1)));
+  EXPECT_NEAR(array.lenses.front().distortion[0], 1e-5, 4 * std::sqrt(array.covariance(1, 1)));
 }
 
 TEST(Calibrate, PoisonedCornersAreNotRead) {
@@ -93,8 +93,8 @@ TEST(Calibrate, PoisonedCornersAreNotRead) {
   const Calibration calibration = MustCalibrate(array);
   EXPECT_GE(calibration.corners_rejected, poisoned);
   EXPECT_LE(calibration.corners_rejected, poisoned + 20);
-  EXPECT_NEAR(calibration.bundle.state.array.lens.magnification_px_per_mm,
-              clean.bundle.state.array.lens.magnification_px_per_mm,
+  EXPECT_NEAR(calibration.bundle.state.array.Magnification_px_per_mm(),
+              clean.bundle.state.array.Magnification_px_per_mm(),
               2 * std::sqrt(clean.bundle.state.array.covariance(0, 0)));
 }
 

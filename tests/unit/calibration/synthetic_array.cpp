@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "base/check.h"
 #include "geometry/rotation.h"
 
 namespace telestrain::testing_support {
@@ -67,7 +68,8 @@ double Random::Normal(double sigma) {
 ImagePoint Observe(const SyntheticArray& array, std::size_t view, const Eigen::Vector3d& point,
                    double noise_px, Random& random) {
   ImagePoint observed;
-  observed.pixel = Project(array.lens, array.views[view], point);
+  const TelecentricLens& lens = array.lens_of_view.empty() ? array.lens : array.lens_of_view[view];
+  observed.pixel = Project(lens, array.views[view], point);
   observed.pixel.x() += random.Normal(noise_px);
   observed.pixel.y() += random.Normal(noise_px);
   observed.covariance_px2 = std::max(noise_px * noise_px, 1e-8) * Eigen::Matrix2d::Identity();
@@ -114,6 +116,22 @@ SyntheticArray MakeSyntheticArray(const SyntheticOptions& options) {
     }
   }
   return array;
+}
+
+void ObserveAgain(SyntheticArray& array, double noise_px, std::uint64_t seed) {
+  Random random(seed);
+  auto data = CollectCalibrationData(array.session, array.boards);
+  TELESTRAIN_CHECK(data.ok() && data->boards.size() == array.boards.size(), "whole boards only");
+  for (std::size_t b = 0; b < array.boards.size(); ++b) {
+    const BoardData& board = data->boards[b];
+    const TargetPose& pose = array.poses[static_cast<std::size_t>(board.image)];
+    const Eigen::Matrix3Xd corners =
+        CornersOfBoard(board.geometry, board.corners_in_board_mm, array.shape);
+    for (Eigen::Index i = 0; i < corners.cols(); ++i)
+      array.boards[b].corners[static_cast<std::size_t>(i)] = Observe(
+          array, static_cast<std::size_t>(board.view),
+          pose.array_from_target * corners.col(i) + pose.origin_in_array_mm, noise_px, random);
+  }
 }
 
 }  // namespace telestrain::testing_support

@@ -34,13 +34,18 @@ struct SyntheticOptions {
 // nominal one, and exact or noisy corners of all boards. No image is involved.
 struct SyntheticArray {
   Session session;
-  TelecentricLens lens;                // truth
-  std::vector<TelecentricView> views;  // truth, in the nominal array frame
-  std::vector<TargetPose> poses;       // one per calibration image
+  TelecentricLens lens;                       // truth
+  std::vector<TelecentricLens> lens_of_view;  // truth where every view has its own
+  TargetShape shape;                          // truth: how the target deviates from nominal
+  std::vector<TelecentricView> views;         // truth, in the nominal array frame
+  std::vector<TargetPose> poses;              // one per calibration image
   std::vector<BoardObservation> boards;
 };
 
 SyntheticArray MakeSyntheticArray(const SyntheticOptions& options);
+
+// All boards afresh, after the truth was changed.
+void ObserveAgain(SyntheticArray& array, double noise_px, std::uint64_t seed);
 
 // Noisy pixels of a point in every view.
 ImagePoint Observe(const SyntheticArray& array, std::size_t view, const Eigen::Vector3d& point,

@@ -54,6 +54,22 @@ TEST(CalibratePinhole, ExactPinholeCornersGiveTheExactCameras) {
   }
 }
 
+TEST(PinholeViewsAt, TakesEveryViewsOwnLens) {
+  PinholeCase made = ExactCase(true);
+  ArrayCalibration& array = made.telecentric.array;
+  array.lenses.assign(4, array.lenses.front());
+  for (std::size_t v = 0; v < 4; ++v)
+    array.lenses[v].magnification_px_per_mm *= 1 + 0.002 * static_cast<double>(v);
+  constexpr double kDistance_mm = 1e9;
+  const auto views =
+      PinholeViewsAt(made.array.session, made.data, made.telecentric, At(kDistance_mm));
+  const Eigen::Vector3d point(0.3, -0.4, 0.6);
+  for (int v = 0; v < 4; ++v)
+    // Perspective: 1000 px from the principal point times a depth of 8 mm over D; rounding of D.
+    EXPECT_LT((*views[static_cast<std::size_t>(v)].Project(point) - array.Project(v, point)).norm(),
+              1e-5);
+}
+
 TEST(CalibratePinhole, AFreeCoreFindsTheDistanceThatTheCornersHave) {
   PinholeCase made = ExactCase(true);
   const auto truth = PinholeViewsAt(made.array.session, made.data, made.telecentric, At(120));

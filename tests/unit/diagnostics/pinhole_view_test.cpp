@@ -52,6 +52,29 @@ TEST(PinholeView, AFlippedViewIsTheMirrorImageInU) {
   EXPECT_DOUBLE_EQ(a.y(), b.y());
 }
 
+TEST(PinholeView, ALensThatIsNotQuiteTelecentricIsAPinholeFarAway) {
+  constexpr double kKappa_per_mm = 2e-4;
+  const TelecentricLens lens{
+      227, {647.5, 485.5}, {1e-5, 2e-7, 3e-5, -2e-5, 1e-9}, 1, kKappa_per_mm};
+  TelecentricView telecentric;
+  telecentric.axes_in_array = RotationFromRows({1, 0, 0}, {0, -0.8, -0.6}).topRows<2>();
+  telecentric.offset_mm = {0.3, -0.2};
+  telecentric.depth_offset_mm = 1.5;
+  PinholeView view;
+  view.working_distance_mm = 1 / kKappa_per_mm;
+  view.scale_px_per_mm = lens.magnification_px_per_mm;
+  view.principal_px = lens.center_px;
+  view.distortion = lens.distortion;
+  view.camera_from_array = telecentric.Rotation();
+  view.origin_in_camera_mm = {0.3, -0.2, 1 / kKappa_per_mm + 1.5};
+  for (const double x : {-2.0, 0.0, 3.0})
+    for (const double z : {-4.0, 0.0, 5.0}) {
+      const Eigen::Vector3d point(x, 1 - x, z);
+      // Rounding of 1000 px and of 5000 mm, which is 1e-12 of 5 mm, times 227 px/mm.
+      EXPECT_LT((*view.Project(point) - Project(lens, telecentric, point)).norm(), 2e-11);
+    }
+}
+
 TEST(PinholeView, SeesNothingBehindItself) {
   EXPECT_FALSE(ViewAlong({0, 0, -1}, false).Project({0, 0, kDistance_mm + 1}).has_value());
 }

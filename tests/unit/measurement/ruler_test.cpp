@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "unit/calibration/synthetic_array.h"
+#include "unit/measurement/certificate_covariance.h"
 
 namespace telestrain {
 namespace {
@@ -61,17 +62,50 @@ TEST(Ruler, ErrorsLieWithinTheirStatedUncertainty) {
   EXPECT_NEAR(std::sqrt(predicted / total), 0.44, 0.02);
 }
 
+TEST(Ruler, IsRightThroughALeaningLensThatIsKnown) {
+  SyntheticArray array = MakeSyntheticArray({});
+  array.lens.telecentricity_per_mm = 2e-4;  // 0.02 %/mm
+  ArrayCalibration known;
+  known.lenses = {array.lens};
+  known.views = array.views;
+  known.covariance = Eigen::MatrixXd::Zero(known.ParameterCount(), known.ParameterCount());
+  known.covariance_of_noise = known.covariance;
+  ArrayCalibration unaware = known;
+  unaware.lenses.front().telecentricity_per_mm = 0;
+  Random random(8);
+  std::vector<CrossObservation> crosses;
+  for (int i = 0; i < 40; ++i)
+    AddRuler(array, "ruler_" + std::to_string(i), 27.6, 0, random, crosses);
+  // Rounding of 14 mm times 1 / sin 30 degrees, some operations.
+  EXPECT_LT(Summarise(MeasureRuler(array.session, known, crosses)).max_abs_error_um, 1e-9);
+  // The images move by kappa times the depth, 0.8 mm, times the 2.8 mm to the lens's axis, at both
+  // ends: 0.4 um each; distortion of the views' common frame is not undone here.
+  const RulerSummary off = Summarise(MeasureRuler(array.session, unaware, crosses));
+  EXPECT_GT(off.max_abs_error_um, 0.1);
+  RecordProperty("sd_um", std::to_string(off.sd_error_um));
+  RecordProperty("max_um", std::to_string(off.max_abs_error_um));
+}
+
 TEST(Ruler, CertificatesEnterTheBudget) {
   SyntheticArray array = MakeSyntheticArray({});
-  array.session.target.sigma_separation_um = 0.25;
   array.session.ruler.sigma_length_um = 0.3;
   const auto calibration = Calibrate(array.session, array.boards);
   ASSERT_TRUE(calibration.ok());
+  ArrayCalibration known = calibration->bundle.state.array;
+  ASSERT_EQ(ToText(known.model), "none");
+  known.covariance =
+      known.covariance_of_noise + testing_support::CovarianceOfSeparation(known, 0.25e-3);
   Random random(3);
   std::vector<CrossObservation> crosses;
   AddRuler(array, "r.png", 27.6, 1e-4, random, crosses);
-  const auto lengths = MeasureRuler(array.session, calibration->bundle.state.array, crosses);
+  const auto lengths = MeasureRuler(array.session, known, crosses);
   ASSERT_EQ(lengths.size(), 1u);
+  const std::vector<BudgetLine>& budget = lengths[0].budget;
+  ASSERT_EQ(budget.size(), 4u);
+  EXPECT_EQ(budget[2].source, "target certificate");
+  // The ruler lies within 0.02 of the boards' direction: cos differs from 1 by 2e-4.
+  EXPECT_NEAR(budget[2].standard_uncertainty, 0.25, 1e-3);
+  EXPECT_NEAR(budget[3].standard_uncertainty, 0.3, 0);
   EXPECT_NEAR(lengths[0].standard_uncertainty_um, std::hypot(0.25, 0.3), 0.02);
 }
 

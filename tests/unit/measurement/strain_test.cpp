@@ -8,6 +8,7 @@
 
 #include "geometry/rotation.h"
 #include "unit/calibration/synthetic_array.h"
+#include "unit/measurement/certificate_covariance.h"
 
 namespace telestrain {
 namespace {
@@ -24,11 +25,12 @@ struct VirtualPipe {
   ArrayCalibration array;
   PipeGrid grid;
 
-  VirtualPipe() {
+  explicit VirtualPipe(double telecentricity_per_mm = 0) {
     const SyntheticArray synthetic = MakeSyntheticArray({});
-    array.lens = synthetic.lens;
+    array.lenses = {synthetic.lens};
+    array.lenses.front().telecentricity_per_mm = telecentricity_per_mm;
     array.views = synthetic.views;
-    array.covariance = Eigen::MatrixXd::Zero(21, 21);
+    array.covariance = array.covariance_of_noise = Eigen::MatrixXd::Zero(21, 21);
     grid.pipe.axis_point_mm = {0, 0, -4};
     grid.pipe.radius_mm = 4;
     grid.step_px = 61;
@@ -48,18 +50,12 @@ struct VirtualPipe {
     point.group = g;
     point.row = row;
     point.column = column;
-    const auto pixel = [&](int side, const Eigen::Vector3d& p) {
-      return Project(array.lens, array.views[static_cast<std::size_t>(2 * g + side)], p);
-    };
     // The surface point that the whole first pixel sees, so that both pixels are exact.
-    point.first_center_px = pixel(0, wanted).array().round().cast<int>();
-    const TelecentricView& view = array.views[static_cast<std::size_t>(2 * g)];
-    const Eigen::Vector3d ray = view.RayDirection();
-    const auto surface = grid.pipe.Enter(
-        view.PointOnRay(array.lens.IdealFromPixel(point.first_center_px.cast<double>())),
-        ray.z() < 0 ? ray : Eigen::Vector3d(-ray));
-    point.reference_in_array_mm = surface.value();
-    point.second_pixel = pixel(1, point.reference_in_array_mm);
+    point.first_center_px = array.Project(2 * g, wanted).array().round().cast<int>();
+    const ImageRay ray = array.RayOf(2 * g, point.first_center_px.cast<double>());
+    point.reference_in_array_mm =
+        grid.pipe.Enter(ray.point_in_array_mm, ray.direction_in_array).value();
+    point.second_pixel = array.Project(2 * g + 1, point.reference_in_array_mm);
     point.second_center_px = point.second_pixel.array().round().cast<int>();
     grid.points.push_back(point);
   }
@@ -76,10 +72,9 @@ struct VirtualPipe {
       t.zncc = 1;
       for (int side = 0; side < 2; ++side) {
         const int view = 2 * point.group + side;
-        const auto& v = array.views[static_cast<std::size_t>(view)];
         const Eigen::Vector2d at =
             side == 0 ? point.first_center_px.cast<double>() : point.second_pixel;
-        Eigen::Vector2d pixel = at + Project(array.lens, v, moved) - Project(array.lens, v, from);
+        Eigen::Vector2d pixel = at + array.Project(view, moved) - array.Project(view, from);
         pixel += Eigen::Vector2d(random.Normal(noise_px), random.Normal(noise_px));
         t.measured[static_cast<std::size_t>(side)] = {
             view, pixel, noise_px * noise_px * Eigen::Matrix2d::Identity()};
@@ -132,6 +127,46 @@ TEST(Strain, AKnownStretchIsFoundWhateverTheMotion) {
     EXPECT_NEAR(point.axial_strain, stretch, 0.01 * kMicro);
 }
 
+constexpr double kKappa_per_mm = 2e-4;  // 0.02 %/mm
+
+// What the same images give to a calibration that takes the lens for telecentric.
+VirtualPipe Unaware(VirtualPipe pipe) {
+  pipe.array.lenses.front().telecentricity_per_mm = 0;
+  return pipe;
+}
+
+TEST(Strain, AMoveAlongTheDepthIsNoneToACalibrationThatKnowsTheLens) {
+  const VirtualPipe pipe(kKappa_per_mm);
+  constexpr double kMove_mm = 0.12;
+  const auto tracked = pipe.Track([&](const Eigen::Vector3d& p) {
+    return Eigen::Vector3d(p + kMove_mm * Eigen::Vector3d::UnitZ());
+  });
+  const StateStrain state = MustAnalyse(pipe, tracked);
+  EXPECT_NEAR(state.axial_strain, 0, 1e-3 * kMicro);
+  for (const double local : state.local_axial_strain) EXPECT_NEAR(local, 0, 1e-3 * kMicro);
+  EXPECT_LT((state.translation_mm - kMove_mm * Eigen::Vector3d::UnitZ()).norm(), 1e-9);
+  // To the other each patch grows by kappa times the move along the axes, which are 30 degrees off
+  // it. The patches move apart by as much of their images' distance to the lens's axis, which is
+  // 2.8 mm from the middle of every view, of the base of 27.7 mm.
+  const StateStrain unaware = MustAnalyse(Unaware(pipe), tracked);
+  const double growth = kKappa_per_mm * kMove_mm * std::cos(30 * 3.14159265358979 / 180);
+  for (const double local : unaware.local_axial_strain)
+    EXPECT_NEAR(std::abs(local), growth, 0.1 * growth);  // the rays lean by up to 1e-3 more
+  EXPECT_NEAR(std::abs(unaware.axial_strain), growth * 2 * 2.8 / 27.7, 0.1 * growth);
+  RecordProperty("axial_microstrain", std::to_string(1e6 * unaware.axial_strain));
+  RecordProperty("local_microstrain", std::to_string(1e6 * unaware.local_axial_strain[0]));
+}
+
+TEST(Strain, AStretchIsFoundThroughALeaningLens) {
+  const VirtualPipe pipe(kKappa_per_mm);
+  const double stretch = 750 * kMicro;
+  const StateStrain state = MustAnalyse(pipe, pipe.Track([&](const Eigen::Vector3d& p) {
+    return Eigen::Vector3d(p + Eigen::Vector3d(stretch * p.x(), 0, -0.08));
+  }));
+  EXPECT_NEAR(state.axial_strain, stretch, 1e-3 * kMicro);
+  for (const double local : state.local_axial_strain) EXPECT_NEAR(local, stretch, 1e-3 * kMicro);
+}
+
 TEST(Strain, PointsThatDoNotFollowThePipeAreTakenOut) {
   const VirtualPipe pipe;
   auto tracked = pipe.Track([](const Eigen::Vector3d& p) {
@@ -165,6 +200,20 @@ TEST(Strain, StatedNoiseIsTheScatter) {
   // A standard deviation from 200 trials scatters by 5 %; 4 sigma.
   EXPECT_NEAR(std::sqrt(predicted), std::sqrt(squares), 0.2 * std::sqrt(squares));
   EXPECT_GE(within, 181);  // 95.4 % of 200 less 3 sigma of the binomial
+}
+
+TEST(Strain, TheCertificateOfTheTargetScalesTheStrain) {
+  constexpr double kSeparation_mm = 0.25e-3, kBase_mm = 27.7, kStretch = 750 * kMicro;
+  VirtualPipe pipe;
+  pipe.array.covariance += testing_support::CovarianceOfSeparation(pipe.array, kSeparation_mm);
+  const StateStrain state = MustAnalyse(pipe, pipe.Track([](const Eigen::Vector3d& p) {
+    return Eigen::Vector3d(p + Eigen::Vector3d(kStretch * p.x(), 0, 0));
+  }));
+  ASSERT_EQ(state.budget[3].source, "target certificate");
+  // The base of the grid is 27.7 mm to 1 %.
+  EXPECT_NEAR(state.budget[3].standard_uncertainty, kStretch * kSeparation_mm / kBase_mm,
+              0.01 * kStretch * kSeparation_mm / kBase_mm);
+  EXPECT_EQ(state.budget[2].standard_uncertainty, 0);
 }
 
 TEST(Strain, TooFewPointsAreAnErrorThatNamesTheGroup) {

@@ -76,6 +76,69 @@ TEST(TelecentricViewTest, JacobianIsTheDerivative) {
   }
 }
 
+// A view of either sense, focused 3 mm off the array's origin, through a lens with every term.
+struct LeaningCase {
+  TelecentricLens lens = SampleLens();
+  TelecentricView view = SampleView();
+};
+
+std::vector<LeaningCase> LeaningCases() {
+  std::vector<LeaningCase> cases;
+  for (const double kappa_per_mm : {0.0, 2e-4, -5e-3})
+    for (const double sense : {1.0, -1.0}) {
+      LeaningCase leaning;
+      leaning.lens.aspect = 1.01;
+      leaning.lens.telecentricity_per_mm = kappa_per_mm;
+      leaning.view.depth_sense = sense;
+      leaning.view.depth_offset_mm = 3;
+      cases.push_back(leaning);
+    }
+  return cases;
+}
+
+TEST(TelecentricViewTest, EveryPointOfAPixelsRayIsSeenInThePixel) {
+  for (const auto& [lens, view] : LeaningCases())
+    for (double u = 0; u < 2592; u += 431)
+      for (double v = 0; v < 1944; v += 277) {
+        const ImageRay ray = RayOfPixel(lens, view, {u, v});
+        for (const double depth_mm : {-20.0, -1.0, 0.0, 0.4, 7.0}) {
+          EXPECT_NEAR(view.Depth_mm(ray.At(depth_mm)), depth_mm, 1e-13);  // rounding of 20 mm
+          // Undistort's 1e-13 mm and rounding, 8 ulp of 10 mm, times 230 px/mm.
+          EXPECT_LT((Project(lens, view, ray.At(depth_mm)) - Vector2d(u, v)).norm(), 5e-11);
+        }
+      }
+}
+
+TEST(TelecentricViewTest, RaysOfATelecentricLensAreParallelAndOthersMeetOnTheAxis) {
+  for (const auto& [lens, view] : LeaningCases()) {
+    const double kappa = lens.telecentricity_per_mm;
+    for (const Vector2d& pixel : {Vector2d(100, 100), Vector2d(2000, 1500)}) {
+      const ImageRay ray = RayOfPixel(lens, view, pixel);
+      if (kappa == 0)
+        EXPECT_EQ(ray.direction_in_array, view.ViewingDirection());
+      else  // where the object's side shrinks to nothing: 1 / kappa before the plane of unit scale
+        EXPECT_LT(view.Ideal(ray.At(-1 / kappa)).norm(), 1e-11);  // rounding of 5000 mm
+    }
+  }
+}
+
+TEST(TelecentricViewTest, JacobianIsTheDerivativeForEveryLens) {
+  constexpr double kStep_mm = 1e-4;
+  for (const auto& [lens, view] : LeaningCases())
+    for (double x = -3; x <= 3; x += 1.5)
+      for (double z = -4; z <= 4; z += 2) {
+        const Vector3d point(x, 1 - 0.5 * x, z);
+        Eigen::Matrix<double, 2, 3> numeric;
+        for (int i = 0; i < 3; ++i) {
+          const Vector3d step = kStep_mm * Vector3d::Unit(i);
+          numeric.col(i) = (Project(lens, view, point + step) - Project(lens, view, point - step)) /
+                           (2 * kStep_mm);
+        }
+        // As above; the sense and the leaning change 1 px per mm and more.
+        EXPECT_LT((ProjectJacobian(lens, view, point) - numeric).norm(), 5e-8);
+      }
+}
+
 TEST(TelecentricViewTest, RotationIsProper) {
   const Eigen::Matrix3d rotation = SampleView().Rotation();
   EXPECT_NEAR(rotation.determinant(), 1, 1e-14);

@@ -54,6 +54,7 @@ square_mm = 0.3
 sigma_square_um = 0.25
 sigma_separation_um = 0.3
 coplanarity_um = 1
+flatness_um = 0.4
 [[target.board]]
 group = "A"
 center_in_target_mm = [-13.85, 0.0, 0.0]

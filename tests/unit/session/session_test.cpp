@@ -33,6 +33,7 @@ TEST(ReadSessionTest, ReadsEveryKeyOfTheFormat) {
   EXPECT_EQ(session.stage_sigma_mm, 0.004);
   EXPECT_EQ(session.target.CornerCount(), 117);
   EXPECT_EQ(session.target.coplanarity_um, 1);
+  EXPECT_EQ(session.target.flatness_um, 0.4);
   EXPECT_EQ(session.target.boards[1].rotation_rad, 0.7 * std::numbers::pi / 180);
   EXPECT_EQ(session.ruler.length_mm, 27.6);
   EXPECT_EQ(session.pipe.material, "copper");

@@ -60,6 +60,7 @@ void ExpectEqualArtefacts(const Session& a, const Session& b) {
   EXPECT_EQ(a.target.sigma_square_um, b.target.sigma_square_um);
   EXPECT_EQ(a.target.sigma_separation_um, b.target.sigma_separation_um);
   EXPECT_EQ(a.target.coplanarity_um, b.target.coplanarity_um);
+  EXPECT_EQ(a.target.flatness_um, b.target.flatness_um);
   ASSERT_EQ(a.target.boards.size(), b.target.boards.size());
   for (std::size_t i = 0; i < a.target.boards.size(); ++i) {
     EXPECT_EQ(a.target.boards[i].group, b.target.boards[i].group);

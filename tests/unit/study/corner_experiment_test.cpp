@@ -21,7 +21,7 @@ TEST(CornerExperiment, TheRulerScattersByTheNoiseOfItsCrosses) {
   ASSERT_TRUE(outcome.ok()) << outcome.error().message;
   ASSERT_EQ(outcome->ruler_error_um.size(), 120u);
   const double noise_um =
-      1000 * 0.1 / outcome->calibration.bundle.state.array.lens.magnification_px_per_mm;
+      1000 * 0.1 / outcome->calibration.bundle.state.array.Magnification_px_per_mm();
   // The sd of 120 values scatters by 1 / sqrt(240); 4 sigma.
   EXPECT_NEAR(FiguresOf(outcome->ruler_error_um).rms / noise_um, 1, 4 / std::sqrt(240.0));
 }

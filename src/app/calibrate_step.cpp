@@ -1,0 +1,124 @@
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "app/results_folder.h"
+#include "app/steps.h"
+#include "base/files.h"
+#include "base/json_file.h"
+#include "base/numbers.h"
+#include "calibration/calibration_comparison.h"
+#include "calibration/calibration_file.h"
+#include "target/detection.h"
+
+namespace telestrain {
+namespace {
+
+namespace fs = std::filesystem;
+
+void WarnOfStage(const AmbiguityDecision& decision, Console& console) {
+  if (decision.stage_pairs == 0)
+    console.Warn(
+        "no stage move among the images: the two-fold ambiguity was decided by the nominal "
+        "views alone");
+  else if (decision.stage_agreeing < decision.stage_pairs)
+    console.Warn("only " + std::to_string(decision.stage_agreeing) + " of " +
+                 std::to_string(decision.stage_pairs) +
+                 " stage moves agree with the nominal views; check calibration.csv");
+}
+
+void SayCalibration(const Calibration& calibration, Console& console) {
+  const ArrayCalibration& array = calibration.bundle.state.array;
+  console.Say("calibrate  magnification " + FormatFixed(array.Magnification_px_per_mm(), 4) +
+              " px/mm, lens model " + ToText(array.model) + ", reprojection RMS " +
+              FormatFixed(calibration.all.rms_px, 4) + " px over " +
+              CountText(static_cast<std::size_t>(calibration.all.corners), "corner"));
+  const CrossValidation& validation = calibration.cross_validation;
+  if (validation.folds > 0)
+    console.Note("  images left out of the fit: RMS " + FormatFixed(validation.rms_px, 4) +
+                 " px, " + FormatFixed(validation.expected_rms_px, 4) +
+                 " px expected from the corners' own noise");
+  else
+    console.Warn(
+        "fewer than 6 poses: nothing is left to check the calibration with images that it has not "
+        "seen; take at least 6 poses");
+  if (calibration.sigma0 > 1.2 && !calibration.options.noise_is_assumed)
+    console.Note("  residuals are " + FormatFixed(calibration.sigma0, 2) +
+                 " times the corners' own noise; all uncertainties are enlarged by that");
+  if (calibration.corners_rejected > 0)
+    console.Note("  " +
+                 CountText(static_cast<std::size_t>(calibration.corners_rejected), "corner") +
+                 " rejected; calibration.json lists where and why");
+}
+
+void SayComparison(const fs::path& old_path, const std::vector<Change>& changes, Console& console) {
+  console.Say("compare    against " + old_path.string() +
+              " (new minus old, +- standard uncertainty)");
+  std::size_t width = 0;
+  for (const Change& change : changes) width = std::max(width, change.quantity.size());
+  int moved = 0;
+  for (const Change& change : changes) {
+    const std::string value = FormatFixed(change.value, 3);
+    console.Say("  " + change.quantity + std::string(width - change.quantity.size(), ' ') +
+                std::string(value.size() < 10 ? 10 - value.size() : 0, ' ') + value + " +- " +
+                FormatFixed(change.standard_uncertainty, 3) + " " + change.unit +
+                (change.IsSignificant() ? "  moved" : ""));
+    moved += change.IsSignificant();
+  }
+  console.Say(moved == 0 ? "  nothing moved beyond chance (3 standard uncertainties)"
+                         : "  " + std::to_string(moved) +
+                               " of these moved by more than 3 standard uncertainties");
+}
+
+Status Compare(const Session& session, const fs::path& results, const EarlierCalibration& earlier,
+               const ArrayCalibration& array, Console& console) {
+  TELESTRAIN_ASSIGN_OR_RETURN(const std::vector<Change> changes,
+                              CompareCalibrations(session, earlier.array, array));
+  TELESTRAIN_RETURN_IF_ERROR(WriteJson(
+      results / "comparison.json", ComparisonJson(changes, earlier.path.string(), earlier.sha256)));
+  SayComparison(earlier.path, changes, console);
+  return {};
+}
+
+// Known before anything is written.
+Status RequireSameViews(const EarlierCalibration& earlier, const Session& session) {
+  bool same = earlier.array.views.size() == session.views.size();
+  for (std::size_t v = 0; same && v < session.views.size(); ++v)
+    same = earlier.array.views[v].name == session.views[v].name;
+  if (same) return {};
+  return BadInput(earlier.path.string() +
+                  ": has other views than the session; compare calibrations of one instrument");
+}
+
+}  // namespace
+
+Result<EarlierCalibration> ReadEarlier(const fs::path& path) {
+  EarlierCalibration earlier{path, {}, {}};
+  TELESTRAIN_ASSIGN_OR_RETURN(earlier.array, ReadArrayCalibration(path));
+  TELESTRAIN_ASSIGN_OR_RETURN(earlier.sha256, Sha256HexOfFile(path));
+  return earlier;
+}
+
+Status CalibrateStep(const Session& session, const fs::path& results,
+                     const CalibrateChoices& choices, Console& console) {
+  TELESTRAIN_RETURN_IF_ERROR(RequireConsistent(results));
+  if (choices.earlier) TELESTRAIN_RETURN_IF_ERROR(RequireSameViews(*choices.earlier, session));
+  TELESTRAIN_ASSIGN_OR_RETURN(const std::vector<BoardObservation> boards,
+                              ReadDetectedBoards(session, results));
+  CalibrationOptions options;
+  options.robust = choices.robust;
+  options.noise_is_assumed = session.corners_are_given;
+  TELESTRAIN_RETURN_IF_ERROR(RemoveOutputsFrom(results, Step::kCalibrate));
+  TELESTRAIN_ASSIGN_OR_RETURN(const Calibration calibration, Calibrate(session, boards, options));
+  TELESTRAIN_ASSIGN_OR_RETURN(const auto made_from,
+                              HashesOf(results, {"inputs.json", "corners.vnl", "detection.json"}));
+  TELESTRAIN_RETURN_IF_ERROR(
+      WriteFileAtomically(results / "residuals.csv", ResidualsCsv(session, calibration)));
+  TELESTRAIN_RETURN_IF_ERROR(
+      WriteJson(results / "calibration.json", CalibrationJson(session, calibration, made_from)));
+  WarnOfStage(calibration.seed.decision, console);
+  SayCalibration(calibration, console);
+  if (!choices.earlier) return {};
+  return Compare(session, results, *choices.earlier, calibration.bundle.state.array, console);
+}
+
+}  // namespace telestrain

@@ -1,0 +1,104 @@
+#include <cmath>
+
+#include "base/numbers.h"
+#include "calibration/calibration_json.h"
+
+namespace telestrain {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json StageJson(const Calibration& calibration) {
+  const AmbiguityDecision& decision = calibration.seed.decision;
+  return {{"boards", decision.boards},
+          {"nominal_margin_deg", decision.smallest_nominal_margin_deg},
+          {"pairs", decision.stage_pairs},
+          {"agreeing", decision.stage_agreeing},
+          {"margin_px", decision.smallest_stage_margin_px},
+          {"nominal_agrees", decision.stage_agreeing == decision.stage_pairs},
+          {"axis_in_array", ArrayOf(calibration.bundle.state.stage_axis_in_array)},
+          {"axis_to_nominal_deg", calibration.stage.axis_to_nominal_deg},
+          {"rms_travel_error_um", calibration.stage.rms_travel_error_um},
+          {"twin_cost_ratio", calibration.stage.twin_chi2_ratio}};
+}
+
+// The paper's Fig. 5.
+Json ScreeningJson(const BranchScreening& screening) {
+  return {{"view_pairs", screening.view_pairs},
+          {"spread_as_chosen_deg", screening.chosen_spread_deg},
+          {"spread_one_view_flipped_deg", screening.mixed_spread_deg},
+          {"decisive", screening.IsDecisive()}};
+}
+
+Json CrossValidationJson(const CrossValidation& validation) {
+  if (validation.folds == 0) return nullptr;
+  return {{"folds", validation.folds},
+          {"rms_px", validation.rms_px},
+          {"expected_rms_px", validation.expected_rms_px},
+          {"normalised_rms", validation.normalised_rms},
+          {"worst_image", validation.worst_image},
+          {"worst_normalised_rms", validation.worst_normalised_rms},
+          {"magnification_change_ppm", validation.magnification_change_ppm}};
+}
+
+// The target's shape as the adjustment sees it, against its certificate.
+Json TargetJson(const Session& session, const Calibration& calibration) {
+  const TargetShape& shape = calibration.bundle.state.target;
+  Json boards = Json::array();
+  for (std::size_t b = 0; b < shape.boards.size(); ++b) {
+    const BoardShape& board = shape.boards[b];
+    boards.push_back({{"group", session.target.boards[b].group},
+                      {"shift_um", 1000 * board.shift_mm},
+                      {"height_um", 1000 * board.height_mm},
+                      {"tilt_x_rad", board.tilt_x_rad},
+                      {"tilt_y_rad", board.tilt_y_rad},
+                      {"bow_x_um", 1000 * board.bow_x_mm},
+                      {"bow_y_um", 1000 * board.bow_y_mm}});
+  }
+  return {{"pitch_ppm", 1e6 * shape.pitch_relative}, {"boards", boards}};
+}
+
+Json ModelTestsJson(const Calibration& calibration) {
+  Json tests = Json::array();
+  for (const ModelTest& test : calibration.model_tests)
+    tests.push_back({{"added", test.added},
+                     {"model", test.model},
+                     {"parameters", test.added_parameters},
+                     {"chi2", test.chi2},
+                     {"f_statistic", test.f_statistic},
+                     {"p_value", test.p_value},
+                     {"accepted", test.accepted}});
+  return tests;
+}
+
+Json GaugeJson(const Session& session, const Calibration& calibration) {
+  const std::string& image =
+      calibration.data.images[static_cast<std::size_t>(calibration.bundle.gauge_pose)].image;
+  Json gauge = Json::array();
+  gauge.push_back("array frame: fitted rigidly to the nominal views, then the target pose of " +
+                  image + " is held fixed (6 parameters)");
+  gauge.push_back("principal point: fixed at the middle of the sensor (" +
+                  FormatShortest(session.sensor.Middle().x()) + ", " +
+                  FormatShortest(session.sensor.Middle().y()) + ") px; it is not observable");
+  gauge.push_back("position of every view along its axis: does not exist for parallel rays");
+  const LensModel& model = calibration.bundle.state.array.model;
+  if (!model.aspect) gauge.push_back("aspect ratio: fixed at 1");
+  if (!model.telecentricity) gauge.push_back("residual telecentricity: fixed at 0");
+  gauge.push_back(
+      "scale: from the certified corner pitch; distance of the boards: from its certificate; both "
+      "free within their standard uncertainties");
+  return gauge;
+}
+
+}  // namespace
+
+Json EvidenceJson(const Session& session, const Calibration& calibration) {
+  return {{"stage_decision", StageJson(calibration)},
+          {"branch_screening", ScreeningJson(calibration.seed.screening)},
+          {"model_tests", ModelTestsJson(calibration)},
+          {"cross_validation", CrossValidationJson(calibration.cross_validation)},
+          {"target", TargetJson(session, calibration)},
+          {"gauge", GaugeJson(session, calibration)}};
+}
+
+}  // namespace telestrain
