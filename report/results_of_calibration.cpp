@@ -111,6 +111,9 @@ void AddReprojection(const Json& calibration, ResultsDraft& draft) {
   const auto count = [&](const char* pointer) {
     return CountCell(NumberAt(reprojection, pointer));
   };
+  const Json& validation = EntryAt(calibration, "/cross_validation");
+  if (validation.is_object())
+    table.AddFact("RMS of images left out of the fit", PixelCell(validation, "/rms_px"), "px");
   table.AddFact("Corners used", count("/corners_used"));
   table.AddFact("Corners rejected", count("/corners_rejected"));
   table.AddFact("Boards used", count("/boards_used"));
@@ -226,6 +229,14 @@ void AddStageDecision(const Json& calibration, ResultsDraft& draft) {
   const Json& agrees = EntryAt(stage, "/nominal_agrees");
   if (agrees.is_boolean())
     table.AddFact("Nominal geometry agrees", agrees.get<bool>() ? "yes" : "no");
+  const Json& screening = EntryAt(calibration, "/branch_screening");
+  if (screening.is_object()) {
+    const auto spread = [&](const char* pointer) {
+      return SignificantCell(NumberAt(screening, pointer), 2);
+    };
+    table.AddFact("Rotation between views varies by", spread("/spread_as_chosen_deg"), "°");
+    table.AddFact("The same with one view flipped", spread("/spread_one_view_flipped_deg"), "°");
+  }
   draft.AddTable(std::move(table));
 }
 
