@@ -227,6 +227,9 @@ Result<Detection> ImportCorners(const Session& session, const fs::path& corners_
                                 Console& console) {
   TELESTRAIN_ASSIGN_OR_RETURN(const auto blocks,
                               ReadCornersVnl(corners_vnl, session.target.CornerCount()));
+  if (blocks.empty())
+    return BadInput(corners_vnl.string() +
+                    ": holds no corners; write a line 'image#view x y level' for every corner");
   std::map<std::string, const BoardObservation*> by_name;
   for (const BoardObservation& block : blocks) {
     TELESTRAIN_RETURN_IF_ERROR(CheckBlock(session, corners_vnl.string(), block));

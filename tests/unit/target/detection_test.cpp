@@ -63,6 +63,10 @@ TEST(ImportCorners, NamesTheLineAndWhatIsKnown) {
       << view;
 }
 
+TEST(ImportCorners, RefusesATableWithoutCorners) {
+  EXPECT_NE(MessageOf("# filename x y level\n").find("holds no corners"), std::string::npos);
+}
+
 // A detector that was given a cut-out of the view counts from another corner.
 TEST(ImportCorners, RefusesCornersOutsideTheView) {
   const std::string text =
