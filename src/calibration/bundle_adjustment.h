@@ -62,11 +62,11 @@ struct BundleResult {
   double Sigma0() const;
 };
 
-// Minimises the whitened reprojection error of every corner over lenses, views, poses, the target's
-// shape within its certificate and the stage's direction (MODEL.md Eq. 12; Levenberg-Marquardt in
-// Ceres, one condensed residual block per board). Held fixed: the principal point, the pose seen by
-// the most views (gauge), the first sub-board (it defines the target frame), and whatever the
-// certificate states without uncertainty. The covariance is scaled by max(1, Sigma0).
+// Minimises the whitened reprojection error of every corner over lenses, views, poses, the boards'
+// bows and the stage's direction (MODEL.md Eq. 12; Levenberg-Marquardt in Ceres, one condensed
+// residual block per board). Held fixed: the principal point, the pose seen by the most views
+// (gauge), and all of the target but the bows; what its certificate leaves open is carried into the
+// covariance, in which the corners' information is divided by max(1, Sigma0^2).
 // Fails (kEstimationFailed) when the information matrix is singular or the solver does not
 // converge. One thread; the same bytes on every machine.
 Result<BundleResult> AdjustBundle(const CalibrationData& data, const ArrayState& start,

@@ -41,21 +41,15 @@ Json CrossValidationJson(const CrossValidation& validation) {
           {"magnification_change_ppm", validation.magnification_change_ppm}};
 }
 
-// The target's shape as the adjustment sees it, against its certificate.
+// What the adjustment moves of the target: its bows. The rest stays as certified.
 Json TargetJson(const Session& session, const Calibration& calibration) {
   const TargetShape& shape = calibration.bundle.state.target;
   Json boards = Json::array();
-  for (std::size_t b = 0; b < shape.boards.size(); ++b) {
-    const BoardShape& board = shape.boards[b];
+  for (std::size_t b = 0; b < shape.boards.size(); ++b)
     boards.push_back({{"group", session.target.boards[b].group},
-                      {"shift_um", 1000 * board.shift_mm},
-                      {"height_um", 1000 * board.height_mm},
-                      {"tilt_x_rad", board.tilt_x_rad},
-                      {"tilt_y_rad", board.tilt_y_rad},
-                      {"bow_x_um", 1000 * board.bow_x_mm},
-                      {"bow_y_um", 1000 * board.bow_y_mm}});
-  }
-  return {{"pitch_ppm", 1e6 * shape.pitch_relative}, {"boards", boards}};
+                      {"bow_x_um", 1000 * shape.boards[b].bow_x_mm},
+                      {"bow_y_um", 1000 * shape.boards[b].bow_y_mm}});
+  return {{"boards", boards}};
 }
 
 Json ModelTestsJson(const Calibration& calibration) {
@@ -85,8 +79,8 @@ Json GaugeJson(const Session& session, const Calibration& calibration) {
   if (!model.aspect) gauge.push_back("aspect ratio: fixed at 1");
   if (!model.telecentricity) gauge.push_back("residual telecentricity: fixed at 0");
   gauge.push_back(
-      "scale: from the certified corner pitch; distance of the boards: from its certificate; both "
-      "free within their standard uncertainties");
+      "scale: from the certified corner pitch; distance, height and tilts of the boards: as "
+      "certified; their standard uncertainties are carried into every covariance");
   return gauge;
 }
 
