@@ -20,16 +20,33 @@ using Keys = std::map<std::string, Key>;
 constexpr const char* kSchema = "telestrain.template/1";
 
 const std::vector<std::string>& TableNames() {
-  static const std::vector<std::string> kNames = {
-      "summary",        "document",        "artefacts",
-      "software",       "input-files",     "result-files",
-      "lens",           "views",           "reprojection",
-      "poses",          "boards",          "boards-rejected",
-      "stage",          "model-tests",     "gauge",
-      "ruler",          "ruler-summary",   "ruler-budget",
-      "ruler-rejected", "strain-states",   "strain-comparison",
-      "strain-budget",  "strain-rejected", "pipe",
-      "correlation",    "corners-rejected"};
+  static const std::vector<std::string> kNames = {"summary",
+                                                  "document",
+                                                  "artefacts",
+                                                  "software",
+                                                  "input-files",
+                                                  "result-files",
+                                                  "lens",
+                                                  "views",
+                                                  "lens-of-view",
+                                                  "reprojection",
+                                                  "poses",
+                                                  "boards",
+                                                  "boards-rejected",
+                                                  "stage",
+                                                  "model-tests",
+                                                  "gauge",
+                                                  "ruler",
+                                                  "ruler-summary",
+                                                  "ruler-budget",
+                                                  "ruler-rejected",
+                                                  "strain-states",
+                                                  "strain-comparison",
+                                                  "strain-budget",
+                                                  "strain-rejected",
+                                                  "pipe",
+                                                  "correlation",
+                                                  "corners-rejected"};
   return kNames;
 }
 

@@ -14,62 +14,6 @@ Json PixelCell(const Json& json, const std::string& pointer) {
   return FixedCell(NumberAt(json, pointer), kPixelDecimals);
 }
 
-void AddLens(const Json& calibration, ResultsDraft& draft) {
-  ResultTable table = FactTable("lens", "Lens as calibrated");
-  if (const auto magnification = NumberAt(calibration, "/lens/magnification_px_per_mm")) {
-    const auto expanded =
-        draft.acceptance.Expanded(NumberAt(calibration, "/lens/sigma_magnification_px_per_mm"));
-    table.AddFact("Magnification (U with the certificate of the pitch)",
-                  UncertainCell(*magnification, expanded, FixedCell(magnification, 4)), "px/mm");
-  }
-  table.AddFact("Object side of one pixel",
-                FixedCell(NumberAt(calibration, "/lens/object_side_um_per_px"), 4), "µm");
-  table.AddFact("Distortion model", TextAt(calibration, "/lens/model", kNoValue));
-  static const std::vector<std::pair<const char*, const char*>> kTerms = {{"k1_per_mm2", "1/mm²"},
-                                                                          {"k2_per_mm4", "1/mm⁴"},
-                                                                          {"k3_per_mm6", "1/mm⁶"},
-                                                                          {"p1_per_mm", "1/mm"},
-                                                                          {"p2_per_mm", "1/mm"}};
-  for (const auto& [key, unit] : kTerms) {
-    const auto value = NumberAt(calibration, std::string("/lens/distortion/") + key);
-    if (value && *value != 0)
-      table.AddFact("Distortion " + std::string(key).substr(0, 2), SignificantCell(value, 4), unit);
-  }
-  table.AddFact("Distortion centre u", FixedCell(NumberAt(calibration, "/lens/center_px/0"), 1),
-                "px");
-  table.AddFact("Distortion centre v", FixedCell(NumberAt(calibration, "/lens/center_px/1"), 1),
-                "px");
-  draft.AddTable(std::move(table));
-}
-
-void AddViews(const Json& calibration, ResultsDraft& draft) {
-  ResultTable table("views", "Views as calibrated",
-                    {{"View", ""},
-                     {"Group", ""},
-                     {"Corners", ""},
-                     {"RMS", "px"},
-                     {"Mean", "px"},
-                     {"Eq. 6 m_x", "px/mm"},
-                     {"Eq. 6 m_y", "px/mm"},
-                     {"Offset u", "px"},
-                     {"Offset v", "px"},
-                     {"Axis x", ""},
-                     {"Axis y", ""},
-                     {"Axis z", ""}});
-  for (const Json& view : ListAt(calibration, "/views")) {
-    const auto fixed = [&](const char* pointer, int decimals) {
-      return FixedCell(NumberAt(view, pointer), decimals);
-    };
-    table.AddRow({TextAt(view, "/name", "?"), TextAt(view, "/group", kNoValue),
-                  CountCell(NumberAt(view, "/corners")), PixelCell(view, "/rms_px"),
-                  PixelCell(view, "/mean_px"), fixed("/magnification_eq6_px_per_mm/0", 3),
-                  fixed("/magnification_eq6_px_per_mm/1", 3), fixed("/offset_px/0", 2),
-                  fixed("/offset_px/1", 2), fixed("/axis_in_array/0", 5),
-                  fixed("/axis_in_array/1", 5), fixed("/axis_in_array/2", 5)});
-  }
-  draft.AddTable(std::move(table));
-}
-
 // The arrow that explains the scale of the residual field: a round length near half the RMS, so
 // that the means of some ten residuals draw well below their neighbours.
 void AddResidualArrow(double rms_px, ResultsDraft& draft) {
@@ -114,6 +58,11 @@ void AddReprojection(const Json& calibration, ResultsDraft& draft) {
   const Json& validation = EntryAt(calibration, "/cross_validation");
   if (validation.is_object())
     table.AddFact("RMS of images left out of the fit", PixelCell(validation, "/rms_px"), "px");
+  table.AddFact("Corners", TextAt(calibration, "/solver/corners", kNoValue));
+  table.AddFact("Their noise", TextAt(calibration, "/solver/corner_noise", kNoValue));
+  table.AddFact("Outliers", TextAt(calibration, "/solver/outliers", kNoValue));
+  if (const auto weak = NumberAt(calibration, "/solver/corners_below_half_weight"))
+    table.AddFact("Corners below half weight", CountCell(weak));
   table.AddFact("Corners used", count("/corners_used"));
   table.AddFact("Corners rejected", count("/corners_rejected"));
   table.AddFact("Boards used", count("/boards_used"));
@@ -241,16 +190,25 @@ void AddStageDecision(const Json& calibration, ResultsDraft& draft) {
 }
 
 void AddModels(const Json& calibration, ResultsDraft& draft) {
-  ResultTable tests(
-      "model-tests", "Models tested",
-      {{"Model", ""}, {"Parameters", ""}, {"χ²", ""}, {"F", ""}, {"p", ""}, {"Accepted", ""}});
+  constexpr double kLeastP = 1e-12;  // below it a normal tail says nothing any more
+  ResultTable tests("model-tests", "Models tested",
+                    {{"Asked for", ""},
+                     {"Fitted with", ""},
+                     {"Parameters", ""},
+                     {"χ²", ""},
+                     {"F", ""},
+                     {"p", ""},
+                     {"Needed", ""}});
   for (const Json& model : ListAt(calibration, "/model_tests")) {
     const Json& accepted = EntryAt(model, "/accepted");
-    tests.AddRow({TextAt(model, "/model", "?"), CountCell(NumberAt(model, "/parameters")),
-                  FixedCell(NumberAt(model, "/chi2"), 1),
+    const auto p = NumberAt(model, "/p_value");
+    tests.AddRow({TextAt(model, "/added", kNoValue), TextAt(model, "/model", "?"),
+                  CountCell(NumberAt(model, "/parameters")), FixedCell(NumberAt(model, "/chi2"), 1),
                   SignificantCell(NumberAt(model, "/f_statistic"), 4),
-                  SignificantCell(NumberAt(model, "/p_value"), 2),
-                  accepted == true ? "yes" : "no"});
+                  p && *p < kLeastP ? Json("< 1e-12") : SignificantCell(p, 2),
+                  !accepted.is_boolean() ? kNoValue
+                  : accepted == true     ? "yes"
+                                         : "no"});
   }
   if (!tests.empty()) draft.AddTable(std::move(tests));
   ResultTable gauge("gauge", "Gauge: what was held fixed", {{"Statement", ""}});
@@ -266,8 +224,7 @@ void AddCalibration(const Json& calibration, const Json& detection, ResultsDraft
   AddReprojection(calibration, draft);
   AddBoards(calibration, detection, draft);
   if (calibration.is_null()) return;
-  AddLens(calibration, draft);
-  AddViews(calibration, draft);
+  AddLensAndViews(calibration, draft);
   AddPoses(calibration, draft);
   AddStageDecision(calibration, draft);
   AddModels(calibration, draft);

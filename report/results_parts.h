@@ -12,6 +12,8 @@ namespace telestrain {
 void AddInputs(const Json& inputs, ResultsDraft& draft);
 // Lens, views, reprojection, poses, boards found and rejected, stage, models, gauge.
 void AddCalibration(const Json& calibration, const Json& detection, ResultsDraft& draft);
+// The first part of it: what the lens and the views are.
+void AddLensAndViews(const Json& calibration, ResultsDraft& draft);
 // Length errors with their verdicts, summary and budget.
 void AddRuler(const Json& ruler, ResultsDraft& draft);
 // States, comparison with the gauges, pipe, budget, correlation settings.

@@ -33,17 +33,27 @@ void SayCalibration(const Calibration& calibration, Console& console) {
               FormatFixed(calibration.all.rms_px, 4) + " px over " +
               CountText(static_cast<std::size_t>(calibration.all.corners), "corner"));
   const CrossValidation& validation = calibration.cross_validation;
-  if (validation.folds > 0)
+  if (validation.folds > validation.folds_skipped)
     console.Note("  images left out of the fit: RMS " + FormatFixed(validation.rms_px, 4) +
                  " px, " + FormatFixed(validation.expected_rms_px, 4) +
                  " px expected from the corners' own noise");
-  else
+  if (validation.folds == 0)
     console.Warn(
         "fewer than 6 poses: nothing is left to check the calibration with images that it has not "
         "seen; take at least 6 poses");
+  if (validation.folds_skipped > 0)
+    console.Warn("of " + std::to_string(validation.folds) + " groups of poses " +
+                 std::to_string(validation.folds_skipped) +
+                 " could not be left out as a check: the rest does not determine the array; take "
+                 "more poses that every view sees");
   if (calibration.sigma0 > 1.2 && !calibration.options.noise_is_assumed)
     console.Note("  residuals are " + FormatFixed(calibration.sigma0, 2) +
                  " times the corners' own noise; all uncertainties are enlarged by that");
+  if (calibration.corners_below_half_weight > 0)
+    console.Note(
+        "  " +
+        CountText(static_cast<std::size_t>(calibration.corners_below_half_weight), "corner") +
+        " beyond three standard deviations: weighed down, but counted in the RMS");
   if (calibration.corners_rejected > 0)
     console.Note("  " +
                  CountText(static_cast<std::size_t>(calibration.corners_rejected), "corner") +

@@ -10,7 +10,7 @@
 #include "measurement/pipe_file.h"
 #include "measurement/ruler.h"
 #include "report/acceptance_report.h"
-#include "target/detection.h"
+#include "target/corner_import.h"
 #include "viz/render.h"
 
 namespace telestrain {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "calibration/bundle_covariance.h"
 #include "calibration/bundle_terms.h"
@@ -70,7 +71,8 @@ ceres::Solver::Options SolverOptions(const BundleOptions& options) {
 
 double LossOf(const BundleTerm& term) {
   std::vector<double> residuals(static_cast<std::size_t>(term.residual->num_residuals()));
-  term.residual->Evaluate(term.blocks.data(), residuals.data(), nullptr);
+  if (!term.residual->Evaluate(term.blocks.data(), residuals.data(), nullptr))
+    return std::numeric_limits<double>::infinity();
   double sum = 0;
   for (const double residual : residuals) sum += residual * residual;
   return sum;
@@ -99,10 +101,30 @@ void Count(const CalibrationData& data, const std::vector<BundleTerm>& terms,
           static_cast<int>(std::count(block.free.begin(), block.free.end(), true));
 }
 
+// Square sum and mean slope of w r, for a loss with w = 1 / (1 + |r|^2 / c^2): the slope, averaged
+// over the directions of r, is w^2.
+void CountInfluence(const CalibrationData& data, double robust_sigmas, BundleResult& result) {
+  result.squared_influence = result.chi2;
+  if (robust_sigmas == 0) return;
+  double squares = 0, slopes = 0;
+  for (const BoardData& board : data.boards) {
+    const Eigen::Matrix2Xd errors = ReprojectionErrors_px(result.state, board);
+    for (Eigen::Index i = 0; i < errors.cols(); ++i) {
+      const double length2 =
+          (board.whitening[static_cast<std::size_t>(i)] * errors.col(i)).squaredNorm();
+      const double weight = RobustWeight(length2, robust_sigmas);
+      squares += weight * weight * length2;
+      slopes += weight * weight;
+    }
+  }
+  result.squared_influence = squares;
+  result.mean_slope = slopes / static_cast<double>(data.CornerCount());
+}
+
 }  // namespace
 
 double BundleResult::Sigma0() const {
-  return std::sqrt(chi2 / std::max(1, residual_count - parameter_count));
+  return std::sqrt(squared_influence / std::max(1, residual_count - parameter_count)) / mean_slope;
 }
 
 Result<BundleResult> AdjustBundle(const CalibrationData& data, const ArrayState& start,
@@ -124,9 +146,10 @@ Result<BundleResult> AdjustBundle(const CalibrationData& data, const ArrayState&
   result.gauge_pose = static_cast<int>(blocks.gauge_pose);
   result.state = blocks.State(start, options.model);
   Count(data, terms, globals, blocks, result);
+  CountInfluence(data, options.robust_sigmas, result);
   result.iterations = static_cast<int>(summary.iterations.size());
   result.termination = summary.message;
-  if (summary.termination_type != ceres::CONVERGENCE)
+  if (summary.termination_type != ceres::CONVERGENCE || !std::isfinite(result.TotalChi2()))
     return EstimationFailed("the bundle adjustment did not converge after " +
                             std::to_string(result.iterations) + " iterations: " + summary.message);
   if (options.want_covariance) {

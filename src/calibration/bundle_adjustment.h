@@ -45,6 +45,9 @@ struct BundleResult {
   // Twice the cost, by what it is of: the corners (a robust loss counted as such), the target's
   // priors, the stage's travels with the prior of their common scale.
   double chi2 = 0, chi2_of_priors = 0, chi2_of_stage = 0;
+  // The corners' pull: square sum of the influences w r of a robust loss, and its mean slope;
+  // without one chi2 and 1.
+  double squared_influence = 0, mean_slope = 1;
   int residual_count = 0;  // scalars of the corners
   int prior_count = 0;     // free numbers of the target's shape; each has one prior
   int stage_count = 0;     // scalars of the stage: three per move and one prior
@@ -58,7 +61,9 @@ struct BundleResult {
   BundleCovariance covariance;  // on request
 
   double TotalChi2() const { return chi2 + chi2_of_priors + chi2_of_stage; }
-  // sqrt(chi2 / degrees of freedom) of the corners.
+  // By how much larger every standard uncertainty is than the corners' stated noise alone makes it
+  // in least squares: sqrt(squared_influence / degrees of freedom) / mean_slope (Huber, Robust
+  // Statistics, 1981, section 7.6). Without a robust loss sqrt(chi2 / degrees of freedom).
   double Sigma0() const;
 };
 
@@ -71,6 +76,12 @@ struct BundleResult {
 // converge. One thread; the same bytes on every machine.
 Result<BundleResult> AdjustBundle(const CalibrationData& data, const ArrayState& start,
                                   const BundleOptions& options);
+
+// What Cauchy's loss of this scale makes of a corner's weight, 1 to 0; `squared_length` is that of
+// the whitened residual. 1 for a scale of 0: least squares.
+inline double RobustWeight(double squared_length, double robust_sigmas) {
+  return robust_sigmas > 0 ? 1 / (1 + squared_length / (robust_sigmas * robust_sigmas)) : 1;
+}
 
 // Reprojection error (measured minus predicted, px) of every corner of a board.
 Eigen::Matrix2Xd ReprojectionErrors_px(const ArrayState& state, const BoardData& board);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <unordered_map>
 
+#include "base/check.h"
 #include "calibration/bundle_covariance.h"
 #include "geometry/rotation.h"
 
@@ -81,7 +82,8 @@ void Linearisation::Evaluate(const BundleTerm& term, const Places& places) {
     pointers.push_back(jacobians_[b].data());
     count += sizes[b];
   }
-  term.residual->Evaluate(term.blocks.data(), residuals_.data(), pointers.data());
+  TELESTRAIN_CHECK(term.residual->Evaluate(term.blocks.data(), residuals_.data(), pointers.data()),
+                   "the covariance is asked for where the residuals can be evaluated");
   columns_.resize(n, count);
   global_at.clear();
   pose_at.clear();
@@ -187,7 +189,10 @@ Status Eliminate(const CalibrationData& data, const BundleBlocks& blocks, Bundle
 Result<BundleSystem> EliminatePoses(const CalibrationData& data, const ArrayState& state,
                                     const BundleOptions& options, double sigma0,
                                     BundleBlocks& blocks) {
-  const std::vector<BundleTerm> terms = MakeTerms(data, state, options, blocks);
+  // Every corner at full weight: what a robust loss does to it stands in sigma0.
+  BundleOptions least_squares = options;
+  least_squares.robust_sigmas = 0;
+  const std::vector<BundleTerm> terms = MakeTerms(data, state, least_squares, blocks);
   const std::vector<GlobalBlock> globals = blocks.Globals(data, state);
   BundleSystem system;
   const Places places = PlaceParameters(globals, blocks, system);

@@ -181,7 +181,7 @@ struct ErrorSums {
   }
 };
 
-void CollectStatistics(const Session& session, Calibration& calibration) {
+void CollectStatistics(const Session& session, double robust_sigmas, Calibration& calibration) {
   ErrorSums all;
   std::vector<ErrorSums> of_view(session.views.size());
   const double floor_px2 = calibration.data.floor_px * calibration.data.floor_px;
@@ -193,6 +193,8 @@ void CollectStatistics(const Session& session, Calibration& calibration) {
       for (ErrorSums* sums : {&all, &of_view[static_cast<std::size_t>(board.view)], &of_board})
         sums->Add(errors.col(i));
       const Eigen::Matrix2d& w = board.whitening[static_cast<std::size_t>(i)];
+      calibration.corners_below_half_weight +=
+          RobustWeight((w * errors.col(i)).squaredNorm(), robust_sigmas) < 0.5;
       variance_sum_px2 += (w.transpose() * w).inverse().trace() / 2 - floor_px2;
     }
     calibration.of_board.push_back(of_board.Statistics());
@@ -272,7 +274,7 @@ Result<Calibration> Calibrate(const Session& session,
   AlignToNominal(session, chosen.bundle.state);
   TELESTRAIN_ASSIGN_OR_RETURN(calibration.bundle, SolveWithCovariance(session, chosen.bundle.state,
                                                                       chosen.options, calibration));
-  CollectStatistics(session, calibration);
+  CollectStatistics(session, chosen.options.robust_sigmas, calibration);
   for (const RejectedObservation& rejected : calibration.data.rejected)
     calibration.corners_rejected += rejected.corners;
   calibration.stage = StudyStage(session, calibration.data, calibration.bundle);

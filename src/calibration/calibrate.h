@@ -41,6 +41,7 @@ struct Calibration {
   std::vector<ReprojectionStatistics> of_view;   // one per view
   std::vector<ReprojectionStatistics> of_board;  // one per data.boards
   int corners_rejected = 0;
+  int corners_below_half_weight = 0;  // with the robust option: beyond three standard deviations
 };
 
 // From labelled corners to the calibrated array: seed, outlier rejection, choice of the model by

@@ -10,16 +10,21 @@ using Json = nlohmann::ordered_json;
 
 Json StageJson(const Calibration& calibration) {
   const AmbiguityDecision& decision = calibration.seed.decision;
-  return {{"boards", decision.boards},
-          {"nominal_margin_deg", decision.smallest_nominal_margin_deg},
-          {"pairs", decision.stage_pairs},
-          {"agreeing", decision.stage_agreeing},
-          {"margin_px", decision.smallest_stage_margin_px},
-          {"nominal_agrees", decision.stage_agreeing == decision.stage_pairs},
-          {"axis_in_array", ArrayOf(calibration.bundle.state.stage_axis_in_array)},
-          {"axis_to_nominal_deg", calibration.stage.axis_to_nominal_deg},
-          {"rms_travel_error_um", calibration.stage.rms_travel_error_um},
-          {"twin_cost_ratio", calibration.stage.twin_chi2_ratio}};
+  Json json{{"boards", decision.boards},
+            {"nominal_margin_deg", decision.smallest_nominal_margin_deg},
+            {"pairs", decision.stage_pairs},
+            {"agreeing", decision.stage_agreeing}};
+  // Without a move there is no such number.
+  const auto of_moves = [&](const char* key, const Json& value) {
+    json[key] = decision.stage_pairs > 0 ? value : Json(nullptr);
+  };
+  of_moves("margin_px", decision.smallest_stage_margin_px);
+  of_moves("nominal_agrees", decision.stage_agreeing == decision.stage_pairs);
+  of_moves("axis_in_array", ArrayOf(calibration.bundle.state.stage_axis_in_array));
+  of_moves("axis_to_nominal_deg", calibration.stage.axis_to_nominal_deg);
+  of_moves("rms_travel_error_um", calibration.stage.rms_travel_error_um);
+  of_moves("twin_cost_ratio", calibration.stage.twin_chi2_ratio);
+  return json;
 }
 
 // The paper's Fig. 5.
@@ -31,8 +36,9 @@ Json ScreeningJson(const BranchScreening& screening) {
 }
 
 Json CrossValidationJson(const CrossValidation& validation) {
-  if (validation.folds == 0) return nullptr;
+  if (validation.folds == validation.folds_skipped) return nullptr;
   return {{"folds", validation.folds},
+          {"folds_skipped", validation.folds_skipped},
           {"rms_px", validation.rms_px},
           {"expected_rms_px", validation.expected_rms_px},
           {"normalised_rms", validation.normalised_rms},
@@ -54,14 +60,16 @@ Json TargetJson(const Session& session, const Calibration& calibration) {
 
 Json ModelTestsJson(const Calibration& calibration) {
   Json tests = Json::array();
-  for (const ModelTest& test : calibration.model_tests)
-    tests.push_back({{"added", test.added},
+  for (const ModelTest& test : calibration.model_tests) {
+    const bool is_start = test.added.empty();  // what the first test compares with
+    tests.push_back({{"added", is_start ? "start" : test.added},
                      {"model", test.model},
                      {"parameters", test.added_parameters},
                      {"chi2", test.chi2},
-                     {"f_statistic", test.f_statistic},
-                     {"p_value", test.p_value},
-                     {"accepted", test.accepted}});
+                     {"f_statistic", is_start ? Json(nullptr) : Json(test.f_statistic)},
+                     {"p_value", is_start ? Json(nullptr) : Json(test.p_value)},
+                     {"accepted", is_start ? Json(nullptr) : Json(test.accepted)}});
+  }
   return tests;
 }
 

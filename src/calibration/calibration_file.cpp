@@ -157,17 +157,23 @@ Json ReprojectionJson(const Calibration& calibration, int boards_rejected) {
 Json SolverJson(const Calibration& calibration) {
   const BundleResult& bundle = calibration.bundle;
   const CalibrationOptions& options = calibration.options;
-  return {{"residuals", bundle.residual_count},
-          {"parameters", bundle.parameter_count},
-          {"chi2", bundle.TotalChi2()},
-          {"outliers", options.robust ? "weighed down (Cauchy)" : "removed"},
-          {"corner_noise", options.noise_is_assumed ? "from the residuals" : "from the detector"}};
+  Json json{{"residuals", bundle.residual_count},
+            {"parameters", bundle.parameter_count},
+            {"chi2", bundle.TotalChi2()},
+            {"corners", options.noise_is_assumed ? "from a table" : "detected in the images"},
+            {"corner_noise", options.noise_is_assumed ? "from the residuals" : "from the detector"},
+            {"outliers", options.robust ? "weighed down (Cauchy)" : "removed"}};
+  if (options.robust) json["corners_below_half_weight"] = calibration.corners_below_half_weight;
+  return json;
 }
 
 Json CovariancesJson(const Calibration& calibration) {
   const ArrayCalibration& array = calibration.bundle.state.array;
   const BundleCovariance& covariance = calibration.bundle.covariance;
-  return {{"covariance",
+  return {{"pose_covariance_parameters",
+           {"rotation_x_rad", "rotation_y_rad", "rotation_z_rad", "origin_x_mm", "origin_y_mm",
+            "origin_z_mm"}},
+          {"covariance",
            {{"parameters", array.ParameterNames()},
             {"matrix", RowsOf(array.covariance)},
             {"matrix_of_noise", RowsOf(array.covariance_of_noise)}}},

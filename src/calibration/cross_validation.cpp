@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 
 #include "geometry/rotation.h"
@@ -13,7 +14,7 @@ namespace {
 
 constexpr std::size_t kLeastPoses = 6;
 constexpr int kPoseParameters = 6;
-constexpr int kPoseIterations = 8;
+constexpr int kPoseIterations = 8, kRobustIterations = 30;  // reweighting converges linearly
 
 // The fold of every image: images of one pose stay together.
 std::vector<int> FoldOfImages(const CalibrationData& data, int folds) {
@@ -76,6 +77,12 @@ struct Misfit {
   double NormalisedRms() const { return std::sqrt(whitened / Freedom()); }
 };
 
+// How the corners of left-out images count: as in the adjustment.
+struct CornerWeights {
+  double floor_px = 0;
+  double robust_sigmas = 0;  // corners of less than half the weight are no part of the misfit
+};
+
 // The normal equations of one pose: left rotation perturbation and origin.
 struct PoseEquations {
   Eigen::Matrix<double, kPoseParameters, kPoseParameters> normal =
@@ -84,7 +91,7 @@ struct PoseEquations {
       Eigen::Matrix<double, kPoseParameters, 1>::Zero();
 };
 
-void AddBoard(const BoardData& board, const ArrayState& state, double floor_px,
+void AddBoard(const BoardData& board, const ArrayState& state, const CornerWeights& weights,
               PoseEquations& equations, Misfit& misfit) {
   const auto view = static_cast<std::size_t>(board.view);
   const TargetPose& pose = state.poses[static_cast<std::size_t>(board.image)];
@@ -100,25 +107,30 @@ void AddBoard(const BoardData& board, const ArrayState& state, double floor_px,
     Eigen::Matrix<double, 2, kPoseParameters> jacobian;
     jacobian << -by_point * Skew(turned), by_point;
     const Eigen::Vector2d error = w * errors.col(i);
-    equations.normal += jacobian.transpose() * jacobian;
-    equations.right += jacobian.transpose() * error;
+    const double weight = RobustWeight(error.squaredNorm(), weights.robust_sigmas);
+    equations.normal += weight * jacobian.transpose() * jacobian;
+    equations.right += weight * jacobian.transpose() * error;
+    if (weight < 0.5) continue;
     misfit.whitened += error.squaredNorm();
     misfit.pixels2 += errors.col(i).squaredNorm();
-    misfit.variance_px2 += (w.transpose() * w).inverse().trace() - 2 * floor_px * floor_px;
+    misfit.variance_px2 +=
+        (w.transpose() * w).inverse().trace() - 2 * weights.floor_px * weights.floor_px;
     misfit.scalars += 2;
   }
 }
 
 // Gauss-Newton for the pose of one image, the array held fixed.
-Misfit FitPose(const CalibrationData& data, ArrayState& state, std::size_t image) {
+Misfit FitPose(const CalibrationData& data, const CornerWeights& weights, std::size_t image,
+               ArrayState& state) {
+  const int iterations = weights.robust_sigmas > 0 ? kRobustIterations : kPoseIterations;
   for (int iteration = 0;; ++iteration) {
     PoseEquations equations;
     Misfit misfit;
     misfit.poses = 1;
     for (const BoardData& board : data.boards)
       if (board.image == static_cast<int>(image))
-        AddBoard(board, state, data.floor_px, equations, misfit);
-    if (iteration == kPoseIterations) return misfit;
+        AddBoard(board, state, weights, equations, misfit);
+    if (iteration == iterations) return misfit;
     const Eigen::Matrix<double, kPoseParameters, 1> step =
         equations.normal.ldlt().solve(equations.right);
     TargetPose& pose = state.poses[image];
@@ -128,13 +140,14 @@ Misfit FitPose(const CalibrationData& data, ArrayState& state, std::size_t image
 }
 
 // Predicts the images of one fold with `predicting` and notes the worst of them.
-Misfit PredictFold(const CalibrationData& data, const std::vector<int>& fold_of, int fold,
-                   ArrayState predicting, CrossValidation& validation) {
+Misfit PredictFold(const CalibrationData& data, const CornerWeights& weights,
+                   const std::function<bool(std::size_t)>& is_left_out, ArrayState predicting,
+                   CrossValidation& validation) {
   Misfit sum;
   for (std::size_t k = 0; k < data.images.size(); ++k) {
-    if (fold_of[k] != fold) continue;
-    const Misfit misfit = FitPose(data, predicting, k);
-    if (misfit.NormalisedRms() > validation.worst_normalised_rms) {
+    if (!is_left_out(k)) continue;
+    const Misfit misfit = FitPose(data, weights, k, predicting);
+    if (misfit.Freedom() > 0 && misfit.NormalisedRms() > validation.worst_normalised_rms) {
       validation.worst_normalised_rms = misfit.NormalisedRms();
       validation.worst_image = data.images[k].image;
     }
@@ -156,10 +169,12 @@ Result<CrossValidation> CrossValidate(const CalibrationData& data, const ArraySt
   for (int fold = 0; fold < folds; ++fold) {
     const auto [rest, start] =
         Part(data, solution, [&](std::size_t k) { return fold_of[k] != fold; });
+    ++validation.folds;
+    ++validation.folds_skipped;
     if (!SeesEveryView(rest, solution.array.views.size())) continue;
     const auto solved = AdjustBundle(rest, start, options);
     if (!solved) continue;  // too little is left; the fit itself does not depend on it
-    ++validation.folds;
+    --validation.folds_skipped;
     const double ratio =
         solved->state.array.Magnification_px_per_mm() / solution.array.Magnification_px_per_mm();
     validation.magnification_change_ppm =
@@ -167,9 +182,11 @@ Result<CrossValidation> CrossValidate(const CalibrationData& data, const ArraySt
     ArrayState predicting = solution;
     predicting.array = solved->state.array;
     predicting.target = solved->state.target;
-    all += PredictFold(data, fold_of, fold, std::move(predicting), validation);
+    all += PredictFold(
+        data, {data.floor_px, options.robust_sigmas},
+        [&](std::size_t k) { return fold_of[k] == fold; }, std::move(predicting), validation);
   }
-  if (all.poses == 0) return validation;
+  if (all.Freedom() <= 0) return validation;
   validation.rms_px = std::sqrt(all.pixels2 / all.scalars);
   validation.expected_rms_px =
       std::sqrt(std::max(0.0, all.variance_px2) / all.scalars * all.Freedom() / all.scalars);

@@ -11,6 +11,7 @@ namespace telestrain {
 // left out in turn, the rest is adjusted again, and only the pose of each left-out image is fitted.
 struct CrossValidation {
   int folds = 0;               // 0: too few poses
+  int folds_skipped = 0;       // of these: without them the rest does not determine the array
   double rms_px = 0;           // over the scalar coordinates of all left-out images
   double expected_rms_px = 0;  // from the corners' own covariances, less the fitted poses
   // sqrt of the whitened square sum over its degrees of freedom: 1 when the model and the stated

@@ -90,8 +90,8 @@ Status ReadBoard(const TomlNode& node, TargetSpec& target) {
 
 FieldReader TargetTable(TargetSpec& target) {
   const auto uncertainty = From(0, kLargestUncertainty_um);
-  return Table({Required("columns", Whole(target.columns, From(2, 200))),
-                Required("rows", Whole(target.rows, From(2, 200))),
+  return Table({Required("columns", Whole(target.columns, From(3, 200))),
+                Required("rows", Whole(target.rows, From(3, 200))),
                 Required("square_mm", Number(target.square_mm, Above(0, 1000))),
                 Optional("sigma_square_um", Number(target.sigma_square_um, uncertainty)),
                 Optional("sigma_separation_um", Number(target.sigma_separation_um, uncertainty)),

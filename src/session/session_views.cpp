@@ -200,6 +200,11 @@ Status AddViews(const TomlNode& root, const std::vector<ViewEntry>& entries, Ses
   if (entries.empty())
     return BadInput(root.Find("view")->place +
                     "'view' has no entry; describe every virtual camera by one [[view]]");
+  constexpr std::size_t kMostViews = 16;  // both branches of every view are tried together
+  if (entries.size() > kMostViews)
+    return BadInput(root.Find("view")->place + "'view' has " + std::to_string(entries.size()) +
+                    " entries, at most " + std::to_string(kMostViews) +
+                    " are supported; calibrate the instrument in parts");
   for (std::size_t i = 0; i < entries.size(); ++i) {
     TELESTRAIN_RETURN_IF_ERROR(CheckName(entries[i]));
     TELESTRAIN_RETURN_IF_ERROR(CheckRegion(entries[i], session.sensor));

@@ -34,15 +34,17 @@ Json LensJson(const TelecentricLens& lens) {
 Json ViewJson(const VirtualInstrument& instrument, const InstrumentView& view) {
   const auto& axes = view.view.axes_in_array;
   const PixelRegion& region = view.region;
-  return {{"name", view.view.name},
-          {"group", view.view.group},
-          {"region_px", {region.x, region.y, region.width, region.height}},
-          {"image_x_in_array", Numbers(axes.row(0))},
-          {"image_y_in_array", Numbers(axes.row(1))},
-          {"axis_in_array", Numbers(view.viewing_direction)},
-          {"offset_mm", Numbers(view.view.offset_mm)},
-          {"offset_px", Numbers(instrument.lens.magnification_px_per_mm * view.view.offset_mm)},
-          {"center_in_array_mm", Numbers(view.center_in_array_mm)}};
+  return {
+      {"name", view.view.name},
+      {"group", view.view.group},
+      {"region_px", {region.x, region.y, region.width, region.height}},
+      {"image_x_in_array", Numbers(axes.row(0))},
+      {"image_y_in_array", Numbers(axes.row(1))},
+      {"axis_in_array", Numbers(view.viewing_direction)},
+      {"offset_mm", Numbers(view.view.offset_mm)},
+      {"offset_px", Numbers(instrument.lens.center_px +
+                            instrument.lens.Scales_px_per_mm().cwiseProduct(view.view.offset_mm))},
+      {"center_in_array_mm", Numbers(view.center_in_array_mm)}};
 }
 
 bool Contains(const PixelRegion& region, const Eigen::Vector2d& pixel) {

@@ -21,7 +21,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-constexpr double kForeignSigma_px = 0.1;  // of corners that come without a covariance
 constexpr const char* kCovarianceFile = "corner_covariances.csv";
 
 // Runs `detect(image, view)` for all views of one file; one result per view in `results`.
@@ -86,7 +85,10 @@ Result<std::map<CornerKey, Eigen::Matrix2d>> ReadCovariances(const Session& sess
                                                              const fs::path& path) {
   std::map<CornerKey, Eigen::Matrix2d> covariances;
   std::error_code code;
-  if (!fs::exists(path, code)) return covariances;
+  if (!fs::exists(path, code))
+    return BadInput(path.string() +
+                    ": does not exist; run 'telestrain detect' again (for corners "
+                    "of another detector: 'telestrain calibrate --corners')");
   TELESTRAIN_ASSIGN_OR_RETURN(const CsvTable table, ReadCsv(path));
   if (table.columns.size() != 7)
     return BadInput(path.string() + ": has " + std::to_string(table.columns.size()) +
@@ -107,12 +109,10 @@ Result<std::map<CornerKey, Eigen::Matrix2d>> ReadCovariances(const Session& sess
   return covariances;
 }
 
-// Why boards were rejected, by "image#view"; empty without detection.json.
+// Why boards were rejected, by "image#view".
 Result<std::map<std::string, std::string>> ReadReasons(const fs::path& results) {
   std::map<std::string, std::string> reasons;
   const fs::path path = results / "detection.json";
-  std::error_code code;
-  if (!fs::exists(path, code)) return reasons;
   TELESTRAIN_ASSIGN_OR_RETURN(const Json json,
                               ReadJson(path, kDetectionSchema, "telestrain detect"));
   try {
@@ -173,81 +173,15 @@ Result<Detection> Search(const Session& session, bool with_boards, Console& cons
   return detection;
 }
 
-// Corners of a view lie in its region; a detector that was given a cut-out counts from elsewhere.
-Status CheckPlaces(const Session& session, const std::string& where,
-                   const BoardObservation& block) {
-  for (const NominalView& view : session.views) {
-    if (view.name != block.view) continue;
-    const PixelRegion& r = view.region;
-    for (const auto& corner : block.corners) {
-      if (!corner) continue;
-      const Eigen::Vector2d& p = corner->pixel;
-      if (p.x() >= r.x - 0.5 && p.y() >= r.y - 0.5 && p.x() <= r.x + r.width - 0.5 &&
-          p.y() <= r.y + r.height - 0.5)
-        continue;
-      return BadInput(where + "the corner (" + FormatFixed(p.x(), 2) + ", " +
-                      FormatFixed(p.y(), 2) + ") of '" + block.image + "#" + block.view +
-                      "' lies outside region_px of the view (x " + std::to_string(r.x) + " to " +
-                      std::to_string(r.x + r.width - 1) + ", y " + std::to_string(r.y) + " to " +
-                      std::to_string(r.y + r.height - 1) +
-                      "); coordinates count from the corner of the whole sensor");
-    }
-  }
-  return {};
-}
-
-// A block of an imported table must belong to the session.
-Status CheckBlock(const Session& session, const std::string& file, const BoardObservation& block) {
-  std::string images, views;
-  bool has_image = false, has_view = false;
-  for (const auto& pose : session.calibration_images) {
-    has_image |= pose.image == block.image;
-    images += (images.empty() ? "" : ", ") + pose.image;
-  }
-  for (const NominalView& view : session.views) {
-    has_view |= view.name == block.view;
-    views += (views.empty() ? "" : ", ") + view.name;
-  }
-  const std::string where = file + ":" + std::to_string(block.line) + ": ";
-  if (!has_image)
-    return BadInput(where + "'" + block.image +
-                    "' is not a calibration image of the session; it has " + images);
-  if (!has_view)
-    return BadInput(where + "'" + block.view + "' is not a view of the session; it has " + views);
-  return CheckPlaces(session, where, block);
-}
-
 }  // namespace
 
 Result<Detection> DetectAll(const Session& session, Console& console) {
   return Search(session, true, console);
 }
 
-Result<Detection> ImportCorners(const Session& session, const fs::path& corners_vnl,
-                                Console& console) {
-  TELESTRAIN_ASSIGN_OR_RETURN(const auto blocks,
-                              ReadCornersVnl(corners_vnl, session.target.CornerCount()));
-  if (blocks.empty())
-    return BadInput(corners_vnl.string() +
-                    ": holds no corners; write a line 'image#view x y level' for every corner");
-  std::map<std::string, const BoardObservation*> by_name;
-  for (const BoardObservation& block : blocks) {
-    TELESTRAIN_RETURN_IF_ERROR(CheckBlock(session, corners_vnl.string(), block));
-    if (!by_name.emplace(block.image + "#" + block.view, &block).second)
-      return BadInput(corners_vnl.string() + ": '" + block.image + "#" + block.view +
-                      "' has two blocks; keep one");
-  }
+Result<std::vector<CrossObservation>> DetectCrosses(const Session& session, Console& console) {
   TELESTRAIN_ASSIGN_OR_RETURN(Detection detection, Search(session, false, console));
-  for (const auto& pose : session.calibration_images)
-    for (const NominalView& view : session.views) {
-      const auto found = by_name.find(pose.image + "#" + view.name);
-      BoardObservation board{pose.image, view.name, {}, "not in " + corners_vnl.string(), 0};
-      if (found != by_name.end()) board = *found->second;
-      for (auto& corner : board.corners)
-        if (corner) corner->covariance_px2 *= kForeignSigma_px * kForeignSigma_px;
-      detection.boards.push_back(std::move(board));
-    }
-  return detection;
+  return std::move(detection.crosses);
 }
 
 Status WriteDetection(const Session& session, const Detection& detection, const fs::path& results) {
@@ -277,10 +211,10 @@ Result<std::vector<BoardObservation>> ReadDetectedBoards(const Session& session,
     for (std::size_t i = 0; i < board.corners.size(); ++i) {
       if (!board.corners[i]) continue;
       const auto at = covariances.find({name, static_cast<int>(i)});
-      board.corners[i]->covariance_px2 = at != covariances.end()
-                                             ? at->second
-                                             : Eigen::Matrix2d(kForeignSigma_px * kForeignSigma_px *
-                                                               board.corners[i]->covariance_px2);
+      if (at == covariances.end())
+        return BadInput((results / kCovarianceFile).string() + ": has no line for corner " +
+                        std::to_string(i) + " of " + name + "; run 'telestrain detect' again");
+      board.corners[i]->covariance_px2 = at->second;
     }
   }
   return boards;

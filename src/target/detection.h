@@ -22,20 +22,18 @@ struct Detection {
 // (kBadInput) when an image cannot be read or has another size than the sensor.
 Result<Detection> DetectAll(const Session& session, Console& console);
 
-// Takes the boards from a corner table (corners_file.h) instead of the calibration images: 0.1 px
-// for level 0, twice that for every further level. Images and views of the session that the table
-// has no block for become rejected boards. Crosses are found in the ruler images as above. Fails
-// (kBadInput) when a block names an image or view that the session has not, or comes twice.
-Result<Detection> ImportCorners(const Session& session, const std::filesystem::path& corners_vnl,
-                                Console& console);
+// Of the ruler images only.
+Result<std::vector<CrossObservation>> DetectCrosses(const Session& session, Console& console);
 
 // corners.vnl, corner_covariances.csv and detection.json in the results folder.
 Status WriteDetection(const Session& session, const Detection& detection,
                       const std::filesystem::path& results);
 
-// The boards of corners.vnl with the covariances of corner_covariances.csv (0.1 px times
-// 2^level where that file is missing, as for corners from another detector) and the reasons of
-// detection.json.
+// Standard deviation of a corner of level 0 that comes without a covariance.
+inline constexpr double kForeignSigma_px = 0.1;
+
+// The boards of corners.vnl with the covariances of corner_covariances.csv and the reasons of
+// detection.json. Fails (kBadInput) when one of the three is missing or a corner has no covariance.
 Result<std::vector<BoardObservation>> ReadDetectedBoards(const Session& session,
                                                          const std::filesystem::path& results);
 Result<std::vector<CrossObservation>> ReadDetectedCrosses(const std::filesystem::path& results);

@@ -96,19 +96,22 @@ void AddModels(Json& json) {
                               {"corners", 0},
                               {"whole_board", true}});
   json["model_tests"] = Json::array();
-  json["model_tests"].push_back({{"model", "none"},
+  json["model_tests"].push_back({{"added", "start"},
+                                 {"model", "none"},
                                  {"parameters", 0},
                                  {"chi2", 31877.2},
                                  {"f_statistic", nullptr},
                                  {"p_value", nullptr},
-                                 {"accepted", false}});
-  json["model_tests"].push_back({{"model", "k1"},
+                                 {"accepted", nullptr}});
+  json["model_tests"].push_back({{"added", "k1"},
+                                 {"model", "k1"},
                                  {"parameters", 1},
                                  {"chi2", 22114.9},
                                  {"f_statistic", 9812.4},
                                  {"p_value", 1.2e-300},
                                  {"accepted", true}});
-  json["model_tests"].push_back({{"model", "k1 k2"},
+  json["model_tests"].push_back({{"added", "k2"},
+                                 {"model", "k1 k2"},
                                  {"parameters", 2},
                                  {"chi2", 22113.6},
                                  {"f_statistic", 1.31},

@@ -100,6 +100,37 @@ TEST(BundleCovariance, ErrorsHaveTheStatedCovarianceAndChi2ItsLaw) {
   EXPECT_NEAR(chi2 / freedom, 1, 4 * std::sqrt(2 / freedom) + 6.0 * kRuns / freedom);
 }
 
+// Mean normalised error squared of lens and views over `runs`, divided by their number.
+double MeanNormalisedError(int runs, double gross_share, const BundleOptions& options) {
+  double normalised = 0;
+  for (int run = 0; run < runs; ++run) {
+    Scene scene = MakeScene(
+        0.1, 0.1, [](Scene&) {}, static_cast<std::uint64_t>(run), 4);
+    Random random(static_cast<std::uint64_t>(run) + 500);
+    for (BoardData& board : scene.data.boards)
+      for (Eigen::Index i = 0; i < board.Count(); ++i)
+        if (random.Uniform(0, 1) < gross_share)
+          board.pixels.col(i) += Eigen::Vector2d(random.Normal(10), random.Normal(10));
+    const ArrayCalibration& found = MustAdjust(scene, options).state.array;
+    const Eigen::VectorXd error = ErrorOf(found, scene.truth.array);
+    normalised +=
+        error.dot(found.covariance.ldlt().solve(error)) / static_cast<double>(error.size());
+  }
+  return normalised / runs;
+}
+
+TEST(BundleCovariance, OfARobustFitIsHonestWithAndWithoutMistakes) {
+  constexpr int kRuns = 60;
+  constexpr double kNumbers = 21;  // magnification, four views of five
+  BundleOptions options;
+  options.want_covariance = true;
+  options.robust_sigmas = 3;
+  // Mean of kRuns chi-squares of 21 degrees of freedom over 21, 4 sigma.
+  const double tolerance = 4 * std::sqrt(2 / (kNumbers * kRuns));
+  EXPECT_NEAR(MeanNormalisedError(kRuns, 0, options), 1, tolerance);
+  EXPECT_NEAR(MeanNormalisedError(kRuns, 0.02, options), 1, tolerance);
+}
+
 TEST(BundleCovariance, ALensForEveryViewAndOneImageIsSingularAndTheMessageNamesIt) {
   Scene scene = MakeScene(0.1, 0.1, [](Scene&) {});
   scene.data.images.resize(1);

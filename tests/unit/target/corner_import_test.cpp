@@ -1,7 +1,8 @@
-#include "target/detection.h"
+#include "target/corner_import.h"
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <fstream>
 #include <sstream>
 
@@ -19,13 +20,15 @@ Session SmallSession() {
   return session;
 }
 
-Result<Detection> Import(const std::string& text) {
+Result<Detection> Import(const Session& session, const std::string& text) {
   const auto path = std::filesystem::path(::testing::TempDir()) / "imported_corners.vnl";
   std::ofstream(path) << text;
   std::ostringstream out, err;
   Console console(out, err, false);
-  return ImportCorners(SmallSession(), path, console);
+  return ImportCorners(session, path, console);
 }
+
+Result<Detection> Import(const std::string& text) { return Import(SmallSession(), text); }
 
 std::string MessageOf(const std::string& text) {
   const auto detection = Import(text);
@@ -79,6 +82,30 @@ TEST(ImportCorners, RefusesCornersOutsideTheView) {
 TEST(ImportCorners, RefusesABlockThatComesTwice) {
   const std::string twice = std::string(kBlock) + "c/1.png#A1 - - -\n" + kBlock;
   EXPECT_NE(MessageOf(twice).find("'c/2.png#A1' has two blocks"), std::string::npos);
+}
+
+// A block of 3 x 2 corners, 4 px apart, whose line i is corner `order[i]` of the right order.
+std::string MessageOfOrder(const std::array<int, 6>& order) {
+  Session session = SmallSession();
+  session.target.columns = 3;
+  session.target.boards = {{"", Eigen::Vector3d::Zero(), 0}};
+  std::string text = "# filename x y level\n";
+  for (const int corner : order)
+    text += "c/1.png#A1 " + std::to_string(4 + 4 * (corner % 3)) + " " +
+            std::to_string(4 + 4 * (corner / 3)) + " 0\n";
+  const auto detection = Import(session, text);
+  return detection.ok() ? "accepted" : detection.error().message;
+}
+
+TEST(ImportCorners, NamesTheOrderThatABlockRunsIn) {
+  EXPECT_EQ(MessageOfOrder({0, 1, 2, 3, 4, 5}), "accepted");
+  const auto expect = [](const std::string& message, const std::string& part) {
+    EXPECT_NE(message.find("run " + part + "; write"), std::string::npos) << message;
+  };
+  expect(MessageOfOrder({2, 1, 0, 5, 4, 3}), "against the target's x");
+  expect(MessageOfOrder({3, 4, 5, 0, 1, 2}), "against the target's y");
+  expect(MessageOfOrder({0, 3, 1, 4, 2, 5}), "down the columns first (y fastest)");
+  expect(MessageOfOrder({5, 4, 3, 2, 1, 0}), "against the target's x, against the target's y");
 }
 
 }  // namespace
