@@ -101,11 +101,15 @@ Status RequireSameViews(const EarlierCalibration& earlier, const Session& sessio
 
 }  // namespace
 
-Result<EarlierCalibration> ReadEarlier(const fs::path& path) {
-  EarlierCalibration earlier{path, {}, {}};
-  TELESTRAIN_ASSIGN_OR_RETURN(earlier.array, ReadArrayCalibration(path));
-  TELESTRAIN_ASSIGN_OR_RETURN(earlier.sha256, Sha256HexOfFile(path));
-  return earlier;
+Result<CalibrateChoices> ReadChoices(bool robust, const fs::path& compare) {
+  CalibrateChoices choices;
+  choices.robust = robust;
+  if (compare.empty()) return choices;
+  EarlierCalibration earlier{compare, {}, {}};
+  TELESTRAIN_ASSIGN_OR_RETURN(earlier.array, ReadArrayCalibration(compare));
+  TELESTRAIN_ASSIGN_OR_RETURN(earlier.sha256, Sha256HexOfFile(compare));
+  choices.earlier = std::move(earlier);
+  return choices;
 }
 
 Status CalibrateStep(const Session& session, const fs::path& results,

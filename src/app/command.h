@@ -43,5 +43,11 @@ struct SessionArguments {
 };
 // --corners FILE: where the corners of the target come from instead of the calibration images.
 void AddCornersOption(CLI::App& app, std::string& corners);
+// How to calibrate.
+struct CalibrateArguments {
+  std::string compare;
+  bool robust = false;
+  void AddTo(CLI::App& app);
+};
 
 }  // namespace telestrain

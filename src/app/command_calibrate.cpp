@@ -1,5 +1,3 @@
-#include <CLI/CLI.hpp>
-
 #include "app/command.h"
 #include "app/steps.h"
 
@@ -21,31 +19,25 @@ class CalibrateCommand : public Command {
   void AddOptions(CLI::App& app) override {
     arguments_.AddTo(app);
     AddCornersOption(app, corners_);
-    app.add_option(
-        "--compare", compare_,
-        "an earlier calibration.json of this instrument: says what moved since, in um on "
-        "the object and in microstrain");
-    app.add_flag("--robust", choices_.robust,
-                 "weigh corners down by their misfit (Cauchy's loss) instead of removing outliers");
+    choices_.AddTo(app);
   }
   Result<int> Run(Console& console) override {
-    if (!compare_.empty()) {
-      TELESTRAIN_ASSIGN_OR_RETURN(choices_.earlier, ReadEarlier(compare_));
-    }
+    TELESTRAIN_ASSIGN_OR_RETURN(const CalibrateChoices choices,
+                                ReadChoices(choices_.robust, choices_.compare));
     TELESTRAIN_ASSIGN_OR_RETURN(const Session session,
                                 corners_.empty()
                                     ? ReopenSession(arguments_.session, arguments_.out)
                                     : OpenSession(arguments_.session, arguments_.out, corners_));
     if (!corners_.empty())
       TELESTRAIN_RETURN_IF_ERROR(DetectStep(session, arguments_.out, corners_, console));
-    TELESTRAIN_RETURN_IF_ERROR(CalibrateStep(session, arguments_.out, choices_, console));
+    TELESTRAIN_RETURN_IF_ERROR(CalibrateStep(session, arguments_.out, choices, console));
     return 0;
   }
 
  private:
   SessionArguments arguments_;
-  std::string corners_, compare_;
-  CalibrateChoices choices_;
+  std::string corners_;
+  CalibrateArguments choices_;
 };
 
 }  // namespace

@@ -25,13 +25,16 @@ class RunCommand : public Command {
   void AddOptions(CLI::App& app) override {
     arguments_.AddTo(app);
     AddCornersOption(app, corners_);
+    choices_.AddTo(app);
   }
   Result<int> Run(Console& console) override {
     const std::string& out = arguments_.out;
+    TELESTRAIN_ASSIGN_OR_RETURN(const CalibrateChoices choices,
+                                ReadChoices(choices_.robust, choices_.compare));
     TELESTRAIN_ASSIGN_OR_RETURN(const Session session,
                                 OpenSession(arguments_.session, out, corners_));
     TELESTRAIN_RETURN_IF_ERROR(DetectStep(session, out, corners_, console));
-    TELESTRAIN_RETURN_IF_ERROR(CalibrateStep(session, out, {}, console));
+    TELESTRAIN_RETURN_IF_ERROR(CalibrateStep(session, out, choices, console));
     TELESTRAIN_RETURN_IF_ERROR(VerifyStep(session, out, console));
     TELESTRAIN_RETURN_IF_ERROR(MeasureStep(session, out, console));
     TELESTRAIN_RETURN_IF_ERROR(RenderStep(out, console));
@@ -41,6 +44,7 @@ class RunCommand : public Command {
  private:
   SessionArguments arguments_;
   std::string corners_;
+  CalibrateArguments choices_;
 };
 
 }  // namespace

@@ -23,6 +23,14 @@ void AddCornersOption(CLI::App& app, std::string& corners) {
       "images");
 }
 
+void CalibrateArguments::AddTo(CLI::App& app) {
+  app.add_option("--compare", compare,
+                 "an earlier calibration.json of this instrument: says what moved since, in um on "
+                 "the object and in microstrain");
+  app.add_flag("--robust", robust,
+               "weigh corners down by their misfit (Cauchy's loss) instead of removing outliers");
+}
+
 namespace {
 
 constexpr int kUsageExit = 2;

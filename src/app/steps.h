@@ -33,7 +33,6 @@ struct EarlierCalibration {
   ArrayCalibration array;
   std::string sha256;
 };
-Result<EarlierCalibration> ReadEarlier(const std::filesystem::path& path);
 
 // How `calibrate` works beside its defaults.
 struct CalibrateChoices {
@@ -42,6 +41,8 @@ struct CalibrateChoices {
   // where it may lie.
   std::optional<EarlierCalibration> earlier;
 };
+// Reads the earlier calibration when `compare` is not empty.
+Result<CalibrateChoices> ReadChoices(bool robust, const std::filesystem::path& compare);
 Status CalibrateStep(const Session& session, const std::filesystem::path& results,
                      const CalibrateChoices& choices, Console& console);
 Status VerifyStep(const Session& session, const std::filesystem::path& results, Console& console);

@@ -71,11 +71,12 @@ TargetSpec NominalTarget() {
   return target;
 }
 
-AcceptanceSpec NominalAcceptance() {
+// Limits only for what is recorded: one that cannot be decided is not passed.
+AcceptanceSpec NominalAcceptance(const VirtualExperimentOptions& options) {
   AcceptanceSpec acceptance;
   acceptance.reprojection_rms_px = 0.1;
-  acceptance.ruler_mpe_um = 3.0;
-  acceptance.strain_error_microstrain = 20.0;
+  if (options.ruler_images > 0) acceptance.ruler_mpe_um = 3.0;
+  if (options.pipe_states > 1) acceptance.strain_error_microstrain = 20.0;
   return acceptance;
 }
 
@@ -104,7 +105,7 @@ Session NominalSession(const VirtualExperimentOptions& options) {
   session.target = NominalTarget();
   session.ruler = {27.6, 0.25};
   session.pipe = {options.pipe_diameter_mm, 0.31, "TA18 titanium tube"};
-  session.acceptance = NominalAcceptance();
+  session.acceptance = NominalAcceptance(options);
   session.document = NominalDocument(options);
   if (options.mirrors) return session;
   session.camera.reset();

@@ -87,5 +87,16 @@ TEST_F(CalibrateVerb, RobustKeepsEveryCorner) {
   EXPECT_TRUE(Holds(ReadAll(results() / "calibration.json"), "weighed down (Cauchy)"));
 }
 
+TEST_F(CalibrateVerb, RunTakesTheSameChoices) {
+  MustRun({"detect", "calibrate"});
+  const fs::path old_file = scratch() / "earlier.json";
+  fs::copy_file(results() / "calibration.json", old_file);
+  const ProgramRun run = RunTelestrain({"run", session().string(), "--out", results().string(),
+                                        "--robust", "--compare", old_file.string()});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_TRUE(Holds(ReadAll(results() / "calibration.json"), "weighed down (Cauchy)"));
+  EXPECT_TRUE(fs::exists(results() / "comparison.json"));
+}
+
 }  // namespace
 }  // namespace telestrain::testing_support

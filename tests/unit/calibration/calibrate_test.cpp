@@ -11,14 +11,9 @@ namespace telestrain {
 namespace {
 
 using testing_support::MakeSyntheticArray;
+using testing_support::MustCalibrate;
 using testing_support::SyntheticArray;
 using testing_support::SyntheticOptions;
-
-Calibration MustCalibrate(const SyntheticArray& array) {
-  auto result = Calibrate(array.session, array.boards);
-  EXPECT_TRUE(result.ok()) << (result.ok() ? "" : result.error().message);
-  return std::move(result).value();
-}
 
 // Relative rotation of two views against the truth: free of the gauge.
 double RelativeRotationError_rad(const SyntheticArray& array, const Calibration& calibration,

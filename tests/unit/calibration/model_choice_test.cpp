@@ -11,17 +11,12 @@ namespace telestrain {
 namespace {
 
 using testing_support::MakeSyntheticArray;
+using testing_support::MustCalibrate;
 using testing_support::ObserveAgain;
 using testing_support::SyntheticArray;
 using testing_support::SyntheticOptions;
 
 constexpr double kNoise_px = 0.02;
-
-Calibration MustCalibrate(const SyntheticArray& array) {
-  auto result = Calibrate(array.session, array.boards);
-  EXPECT_TRUE(result.ok()) << (result.ok() ? "" : result.error().message);
-  return std::move(result).value();
-}
 
 SyntheticArray Start() {
   SyntheticOptions options;

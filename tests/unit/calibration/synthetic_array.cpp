@@ -65,6 +65,10 @@ double Random::Normal(double sigma) {
   return sigma * radius * std::cos(2 * 3.14159265358979323846 * Uniform(0, 1));
 }
 
+Calibration MustCalibrate(const SyntheticArray& array) {
+  return Calibrate(array.session, array.boards).value();
+}
+
 ImagePoint Observe(const SyntheticArray& array, std::size_t view, const Eigen::Vector3d& point,
                    double noise_px, Random& random) {
   ImagePoint observed;

@@ -47,6 +47,9 @@ SyntheticArray MakeSyntheticArray(const SyntheticOptions& options);
 // All boards afresh, after the truth was changed.
 void ObserveAgain(SyntheticArray& array, double noise_px, std::uint64_t seed);
 
+// Throws when the calibration fails.
+Calibration MustCalibrate(const SyntheticArray& array);
+
 // Noisy pixels of a point in every view.
 ImagePoint Observe(const SyntheticArray& array, std::size_t view, const Eigen::Vector3d& point,
                    double noise_px, Random& random);
