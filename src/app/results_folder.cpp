@@ -6,6 +6,7 @@
 
 #include "base/files.h"
 #include "base/json_file.h"
+#include "session/session_record.h"
 #include "target/image_file.h"
 
 namespace telestrain {
@@ -88,35 +89,6 @@ Result<Json> FilesJson(const Session& session) {
   return files;
 }
 
-Json TargetJson(const TargetSpec& target) {
-  Json boards = Json::array();
-  for (const SubBoard& board : target.boards) {
-    const auto& c = board.center_in_target_mm;
-    boards.push_back({{"group", board.group},
-                      {"center_in_target_mm", {c.x(), c.y(), c.z()}},
-                      {"rotation_deg", board.rotation_rad * 57.29577951308232}});
-  }
-  return {{"columns", target.columns},
-          {"rows", target.rows},
-          {"square_mm", target.square_mm},
-          {"sigma_square_um", target.sigma_square_um},
-          {"sigma_separation_um", target.sigma_separation_um},
-          {"coplanarity_um", target.coplanarity_um},
-          {"flatness_um", target.flatness_um},
-          {"boards", boards}};
-}
-
-Json AcceptanceJson(const AcceptanceSpec& acceptance) {
-  Json json = Json::object();
-  if (acceptance.reprojection_rms_px) json["reprojection_rms_px"] = *acceptance.reprojection_rms_px;
-  if (acceptance.ruler_mpe_um) json["ruler_mpe_um"] = *acceptance.ruler_mpe_um;
-  if (acceptance.strain_error_microstrain)
-    json["strain_error_microstrain"] = *acceptance.strain_error_microstrain;
-  json["coverage_factor"] = acceptance.coverage_factor;
-  json["decision_rule"] = acceptance.decision_rule == DecisionRule::kGuarded ? "guarded" : "simple";
-  return json;
-}
-
 Json ProgramJson() {
   Json libraries;
   std::string list = TELESTRAIN_LIBRARIES;  // "name version|name version|…" from CMake
@@ -149,32 +121,10 @@ Result<std::string> InputsText(const Session& session, const fs::path& corners) 
     TELESTRAIN_ASSIGN_OR_RETURN(const std::string bytes, ReadFile(corners));
     corners_json = FileJson(corners.filename().string(), bytes);
   }
-  const Json json{{"schema", kInputsSchema},
-                  {"program", ProgramJson()},
-                  {"title", session.title},
-                  {"document", session.document},
-                  {"sensor",
-                   {{"width_px", session.sensor.width_px},
-                    {"height_px", session.sensor.height_px},
-                    {"pixel_pitch_um", session.sensor.pixel_pitch_um}}},
-                  {"lens",
-                   {{"magnification", session.lens_magnification},
-                    {"depth_of_field_mm", session.depth_of_field_mm}}},
-                  {"target", TargetJson(session.target)},
-                  {"ruler",
-                   {{"length_mm", session.ruler.length_mm},
-                    {"sigma_length_um", session.ruler.sigma_length_um}}},
-                  {"pipe",
-                   {{"outer_diameter_mm", session.pipe.outer_diameter_mm},
-                    {"poisson_ratio", session.pipe.poisson_ratio},
-                    {"material", session.pipe.material}}},
-                  {"acceptance", AcceptanceJson(session.acceptance)},
-                  {"counts",
-                   {{"calibration_images", session.calibration_images.size()},
-                    {"ruler_images", session.ruler_images.size()},
-                    {"pipe_images", session.pipe_states.size()}}},
-                  {"corners", corners_json},
-                  {"files", files}};
+  Json json{{"schema", kInputsSchema}, {"program", ProgramJson()}};
+  json.update(SessionRecord(session));
+  json["corners"] = corners_json;
+  json["files"] = files;
   return JsonText(json);
 }
 
@@ -182,6 +132,17 @@ Result<bool> CornersWereGiven(const fs::path& results) {
   TELESTRAIN_ASSIGN_OR_RETURN(
       const Json inputs, ReadJson(results / "inputs.json", kInputsSchema, "telestrain detect"));
   return inputs.contains("corners") && !inputs["corners"].is_null();
+}
+
+Result<Session> RecordedSession(const fs::path& results) {
+  TELESTRAIN_ASSIGN_OR_RETURN(
+      const Json inputs, ReadJson(results / "inputs.json", kInputsSchema, "telestrain detect"));
+  try {
+    return SessionOfRecord(inputs);
+  } catch (const nlohmann::json::exception& e) {
+    return BadInput((results / "inputs.json").string() + ": " + e.what() +
+                    "; run 'telestrain detect' again");
+  }
 }
 
 Status RequireSameInputs(const Session& session, const fs::path& results) {

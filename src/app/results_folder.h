@@ -24,6 +24,9 @@ Result<std::string> InputsText(const Session& session, const std::filesystem::pa
 // Whether the results were made from given corners instead of calibration images.
 Result<bool> CornersWereGiven(const std::filesystem::path& results);
 
+// What inputs.json says of the session, without the folder.
+Result<Session> RecordedSession(const std::filesystem::path& results);
+
 // Fails (kBadInput) when inputs.json is missing or was made from another session.toml,
 // tables or images.
 Status RequireSameInputs(const Session& session, const std::filesystem::path& results);

@@ -181,7 +181,8 @@ struct ErrorSums {
   }
 };
 
-void CollectStatistics(const Session& session, double robust_sigmas, Calibration& calibration) {
+void CollectStatistics(const Session& session, Calibration& calibration) {
+  const double robust_sigmas = calibration.bundle_options.robust_sigmas;
   ErrorSums all;
   std::vector<ErrorSums> of_view(session.views.size());
   const double floor_px2 = calibration.data.floor_px * calibration.data.floor_px;
@@ -235,7 +236,8 @@ void ScaleNoise(const ArrayState& state, CalibrationData& data) {
 }
 
 Result<BundleResult> SolveWithCovariance(const Session& session, const ArrayState& start,
-                                         BundleOptions options, const Calibration& calibration) {
+                                         const Calibration& calibration) {
+  BundleOptions options = calibration.bundle_options;
   options.want_covariance = true;
   TELESTRAIN_ASSIGN_OR_RETURN(BundleResult solved,
                               Explain(session, calibration.data, start.poses,
@@ -271,16 +273,17 @@ Result<Calibration> Calibrate(const Session& session,
     chosen.options.robust_sigmas = kRobustSigmas * std::max(1.0, chosen.bundle.Sigma0());
   }
   calibration.model_tests = std::move(chosen.tests);
+  calibration.bundle_options = chosen.options;
   AlignToNominal(session, chosen.bundle.state);
-  TELESTRAIN_ASSIGN_OR_RETURN(calibration.bundle, SolveWithCovariance(session, chosen.bundle.state,
-                                                                      chosen.options, calibration));
-  CollectStatistics(session, chosen.options.robust_sigmas, calibration);
+  TELESTRAIN_ASSIGN_OR_RETURN(calibration.bundle,
+                              SolveWithCovariance(session, chosen.bundle.state, calibration));
+  CollectStatistics(session, calibration);
   for (const RejectedObservation& rejected : calibration.data.rejected)
     calibration.corners_rejected += rejected.corners;
   calibration.stage = StudyStage(session, calibration.data, calibration.bundle);
   TELESTRAIN_ASSIGN_OR_RETURN(
       calibration.cross_validation,
-      CrossValidate(calibration.data, calibration.bundle.state, chosen.options));
+      CrossValidate(calibration.data, calibration.bundle.state, calibration.bundle_options));
   return calibration;
 }
 

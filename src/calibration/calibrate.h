@@ -31,9 +31,10 @@ struct Calibration {
   CalibrationOptions options;
   CalibrationData data;  // what was used, and what was rejected and why
   ArraySeed seed;
-  BundleResult bundle;         // in the array frame that fits the nominal views best
-  double sigma0 = 1;           // sqrt(chi2 / degrees of freedom); > 1 inflates the noise
-  double expected_rms_px = 0;  // from the corners' own covariances and the degrees of freedom
+  BundleOptions bundle_options;  // that the choice of the model led to
+  BundleResult bundle;           // in the array frame that fits the nominal views best
+  double sigma0 = 1;             // sqrt(chi2 / degrees of freedom); > 1 inflates the noise
+  double expected_rms_px = 0;    // from the corners' own covariances and the degrees of freedom
   std::vector<ModelTest> model_tests;
   CrossValidation cross_validation;
   StageEvidence stage;

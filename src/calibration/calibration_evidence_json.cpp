@@ -22,6 +22,7 @@ Json StageJson(const Calibration& calibration) {
   of_moves("nominal_agrees", decision.stage_agreeing == decision.stage_pairs);
   of_moves("axis_in_array", ArrayOf(calibration.bundle.state.stage_axis_in_array));
   of_moves("axis_to_nominal_deg", calibration.stage.axis_to_nominal_deg);
+  of_moves("travel_scale_relative", calibration.bundle.state.stage_scale_relative);
   of_moves("rms_travel_error_um", calibration.stage.rms_travel_error_um);
   of_moves("twin_cost_ratio", calibration.stage.twin_chi2_ratio);
   return json;
@@ -55,7 +56,7 @@ Json TargetJson(const Session& session, const Calibration& calibration) {
     boards.push_back({{"group", session.target.boards[b].group},
                       {"bow_x_um", 1000 * shape.boards[b].bow_x_mm},
                       {"bow_y_um", 1000 * shape.boards[b].bow_y_mm}});
-  return {{"boards", boards}};
+  return {{"boards", boards}, {"bow_is_estimated", calibration.bundle_options.estimate_bow}};
 }
 
 Json ModelTestsJson(const Calibration& calibration) {

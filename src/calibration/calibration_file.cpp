@@ -1,5 +1,6 @@
 #include "calibration/calibration_file.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -162,6 +163,8 @@ Json SolverJson(const Calibration& calibration) {
             {"chi2", bundle.TotalChi2()},
             {"corners", options.noise_is_assumed ? "from a table" : "detected in the images"},
             {"corner_noise", options.noise_is_assumed ? "from the residuals" : "from the detector"},
+            {"noise_floor_px", calibration.data.floor_px},
+            {"robust_sigmas", calibration.bundle_options.robust_sigmas},
             {"outliers", options.robust ? "weighed down (Cauchy)" : "removed"}};
   if (options.robust) json["corners_below_half_weight"] = calibration.corners_below_half_weight;
   return json;
@@ -215,17 +218,20 @@ nlohmann::ordered_json CalibrationJson(const Session& session, const Calibration
 }
 
 std::string ResidualsCsv(const Session& session, const Calibration& calibration) {
-  std::string text = "image,view,column,row,u_px,v_px,du_px,dv_px\n";
+  std::string text = std::string(kResidualColumns) + "\n";
   for (const BoardData& board : calibration.data.boards) {
     const Eigen::Matrix2Xd errors = ReprojectionErrors_px(calibration.bundle.state, board);
     for (Eigen::Index i = 0; i < board.Count(); ++i) {
       const int corner = board.corner[static_cast<std::size_t>(i)];
+      const Eigen::Matrix2d& w = board.whitening[static_cast<std::size_t>(i)];
+      const Eigen::Matrix2d c = (w.transpose() * w).inverse();
       text += CsvLine({calibration.data.images[static_cast<std::size_t>(board.image)].image,
                        session.views[static_cast<std::size_t>(board.view)].name,
                        std::to_string(corner % session.target.columns),
                        std::to_string(corner / session.target.columns),
-                       FormatFixed(board.pixels(0, i), 4), FormatFixed(board.pixels(1, i), 4),
-                       FormatFixed(errors(0, i), 6), FormatFixed(errors(1, i), 6)});
+                       FormatShortest(board.pixels(0, i)), FormatShortest(board.pixels(1, i)),
+                       FormatFixed(errors(0, i), 6), FormatFixed(errors(1, i), 6),
+                       FormatShortest(c(0, 0)), FormatShortest(c(0, 1)), FormatShortest(c(1, 1))});
     }
   }
   return text;

@@ -19,7 +19,12 @@ inline constexpr std::array<const char*, 5> kDistortionKeys{"k1_per_mm2", "k2_pe
 nlohmann::ordered_json CalibrationJson(const Session& session, const Calibration& calibration,
                                        const std::map<std::string, std::string>& made_from);
 
-// residuals.csv: one line per corner, measured minus predicted.
+// Columns of residuals.csv: where a corner was measured, measured minus predicted, and the
+// covariance that it was weighted with.
+inline constexpr const char* kResidualColumns =
+    "image,view,column,row,u_px,v_px,du_px,dv_px,cov_uu_px2,cov_uv_px2,cov_vv_px2";
+
+// residuals.csv: one line for each corner that the calibration used.
 std::string ResidualsCsv(const Session& session, const Calibration& calibration);
 
 // Lens, views and covariance of a calibration.json. Fails (kBadInput) when the file is missing or

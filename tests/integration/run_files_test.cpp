@@ -62,7 +62,8 @@ TEST_F(RunFiles, TablesHaveTheirHeadersAndOneRowPerImage) {
   const auto covariances = LinesOf(ReadAll(Results() / "corner_covariances.csv"));
   EXPECT_EQ(covariances[0], "image,view,column,row,cov_uu_px2,cov_uv_px2,cov_vv_px2");
   const auto residuals = LinesOf(ReadAll(Results() / "residuals.csv"));
-  EXPECT_EQ(residuals[0], "image,view,column,row,u_px,v_px,du_px,dv_px");
+  EXPECT_EQ(residuals[0],
+            "image,view,column,row,u_px,v_px,du_px,dv_px,cov_uu_px2,cov_uv_px2,cov_vv_px2");
   EXPECT_EQ(residuals.size(), covariances.size());  // no corner was rejected
 }
 

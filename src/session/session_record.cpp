@@ -1,0 +1,171 @@
+#include "session/session_record.h"
+
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+namespace telestrain {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kDegreesPerRadian = 180 / std::numbers::pi;
+
+Json ArrayOf(const Eigen::Vector3d& vector) { return {vector.x(), vector.y(), vector.z()}; }
+
+Eigen::Vector3d VectorOf(const Json& json) {
+  return {json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>()};
+}
+
+Json ViewsJson(const Session& session) {
+  Json views = Json::array();
+  for (const NominalView& view : session.views) {
+    const PixelRegion& r = view.region;
+    views.push_back({{"name", view.name},
+                     {"group", view.group},
+                     {"region_px", {r.x, r.y, r.width, r.height}},
+                     {"image_x_in_array", ArrayOf(view.image_x_in_array)},
+                     {"image_y_in_array", ArrayOf(view.image_y_in_array)},
+                     {"axis_in_array", ArrayOf(view.axis_in_array)},
+                     {"center_in_array_mm", ArrayOf(view.center_in_array_mm)}});
+  }
+  return views;
+}
+
+NominalView ViewOf(const Json& json) {
+  NominalView view;
+  view.name = json.at("name").get<std::string>();
+  view.group = json.at("group").get<std::string>();
+  const Json& region = json.at("region_px");
+  view.region = {region.at(0).get<int>(), region.at(1).get<int>(), region.at(2).get<int>(),
+                 region.at(3).get<int>()};
+  view.image_x_in_array = VectorOf(json.at("image_x_in_array"));
+  view.image_y_in_array = VectorOf(json.at("image_y_in_array"));
+  view.axis_in_array = VectorOf(json.at("axis_in_array"));
+  view.center_in_array_mm = VectorOf(json.at("center_in_array_mm"));
+  return view;
+}
+
+Json TargetJson(const TargetSpec& target) {
+  Json boards = Json::array();
+  for (const SubBoard& board : target.boards)
+    boards.push_back({{"group", board.group},
+                      {"center_in_target_mm", ArrayOf(board.center_in_target_mm)},
+                      {"rotation_deg", board.rotation_rad * kDegreesPerRadian}});
+  return {{"columns", target.columns},
+          {"rows", target.rows},
+          {"square_mm", target.square_mm},
+          {"sigma_square_um", target.sigma_square_um},
+          {"sigma_separation_um", target.sigma_separation_um},
+          {"coplanarity_um", target.coplanarity_um},
+          {"flatness_um", target.flatness_um},
+          {"boards", boards}};
+}
+
+TargetSpec TargetOf(const Json& json) {
+  TargetSpec target;
+  target.columns = json.at("columns").get<int>();
+  target.rows = json.at("rows").get<int>();
+  target.square_mm = json.at("square_mm").get<double>();
+  target.sigma_square_um = json.at("sigma_square_um").get<double>();
+  target.sigma_separation_um = json.at("sigma_separation_um").get<double>();
+  target.coplanarity_um = json.at("coplanarity_um").get<double>();
+  target.flatness_um = json.at("flatness_um").get<double>();
+  for (const Json& board : json.at("boards"))
+    target.boards.push_back({board.at("group").get<std::string>(),
+                             VectorOf(board.at("center_in_target_mm")),
+                             board.at("rotation_deg").get<double>() / kDegreesPerRadian});
+  return target;
+}
+
+Json AcceptanceJson(const AcceptanceSpec& acceptance) {
+  Json json = Json::object();
+  if (acceptance.reprojection_rms_px) json["reprojection_rms_px"] = *acceptance.reprojection_rms_px;
+  if (acceptance.ruler_mpe_um) json["ruler_mpe_um"] = *acceptance.ruler_mpe_um;
+  if (acceptance.strain_error_microstrain)
+    json["strain_error_microstrain"] = *acceptance.strain_error_microstrain;
+  json["coverage_factor"] = acceptance.coverage_factor;
+  json["decision_rule"] = acceptance.decision_rule == DecisionRule::kGuarded ? "guarded" : "simple";
+  return json;
+}
+
+AcceptanceSpec AcceptanceOf(const Json& json) {
+  AcceptanceSpec acceptance;
+  const auto limit = [&](const char* key, std::optional<double>& value) {
+    if (json.contains(key)) value = json.at(key).get<double>();
+  };
+  limit("reprojection_rms_px", acceptance.reprojection_rms_px);
+  limit("ruler_mpe_um", acceptance.ruler_mpe_um);
+  limit("strain_error_microstrain", acceptance.strain_error_microstrain);
+  acceptance.coverage_factor = json.at("coverage_factor").get<double>();
+  if (json.at("decision_rule") == "simple") acceptance.decision_rule = DecisionRule::kSimple;
+  return acceptance;
+}
+
+Json CalibrationImagesJson(const Session& session) {
+  Json images = Json::array();
+  for (const CalibrationImage& image : session.calibration_images)
+    images.push_back({{"image", image.image}, {"pose", image.pose}, {"stage_mm", image.stage_mm}});
+  return images;
+}
+
+}  // namespace
+
+Json SessionRecord(const Session& session) {
+  return {{"title", session.title},
+          {"document", session.document},
+          {"sensor",
+           {{"width_px", session.sensor.width_px},
+            {"height_px", session.sensor.height_px},
+            {"pixel_pitch_um", session.sensor.pixel_pitch_um}}},
+          {"lens",
+           {{"magnification", session.lens_magnification},
+            {"depth_of_field_mm", session.depth_of_field_mm}}},
+          {"views", ViewsJson(session)},
+          {"stage",
+           {{"axis_in_array", ArrayOf(session.stage_axis_in_array)},
+            {"sigma_mm", session.stage_sigma_mm}}},
+          {"target", TargetJson(session.target)},
+          {"ruler",
+           {{"length_mm", session.ruler.length_mm},
+            {"sigma_length_um", session.ruler.sigma_length_um}}},
+          {"pipe",
+           {{"outer_diameter_mm", session.pipe.outer_diameter_mm},
+            {"poisson_ratio", session.pipe.poisson_ratio},
+            {"material", session.pipe.material}}},
+          {"acceptance", AcceptanceJson(session.acceptance)},
+          {"calibration_images", CalibrationImagesJson(session)},
+          {"ruler_images", session.ruler_images},
+          {"counts",
+           {{"calibration_images", session.calibration_images.size()},
+            {"ruler_images", session.ruler_images.size()},
+            {"pipe_images", session.pipe_states.size()}}}};
+}
+
+Session SessionOfRecord(const Json& record) {
+  Session session;
+  session.title = record.at("title").get<std::string>();
+  session.document = record.at("document").get<std::map<std::string, std::string>>();
+  const Json& sensor = record.at("sensor");
+  session.sensor = {sensor.at("width_px").get<int>(), sensor.at("height_px").get<int>(),
+                    sensor.at("pixel_pitch_um").get<double>()};
+  session.lens_magnification = record.at("lens").at("magnification").get<double>();
+  session.depth_of_field_mm = record.at("lens").at("depth_of_field_mm").get<double>();
+  for (const Json& view : record.at("views")) session.views.push_back(ViewOf(view));
+  session.stage_axis_in_array = VectorOf(record.at("stage").at("axis_in_array"));
+  session.stage_sigma_mm = record.at("stage").at("sigma_mm").get<double>();
+  session.target = TargetOf(record.at("target"));
+  const Json& ruler = record.at("ruler");
+  session.ruler = {ruler.at("length_mm").get<double>(), ruler.at("sigma_length_um").get<double>()};
+  const Json& pipe = record.at("pipe");
+  session.pipe = {pipe.at("outer_diameter_mm").get<double>(),
+                  pipe.at("poisson_ratio").get<double>(), pipe.at("material").get<std::string>()};
+  session.acceptance = AcceptanceOf(record.at("acceptance"));
+  for (const Json& image : record.at("calibration_images"))
+    session.calibration_images.push_back({image.at("image").get<std::string>(),
+                                          image.at("pose").get<std::string>(),
+                                          image.at("stage_mm").get<double>()});
+  session.ruler_images = record.at("ruler_images").get<std::vector<std::string>>();
+  return session;
+}
+
+}  // namespace telestrain
