@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "app/results_folder.h"
 #include "app/steps.h"
@@ -99,15 +101,37 @@ Status RequireSameViews(const EarlierCalibration& earlier, const Session& sessio
                   ": has other views than the session; compare calibrations of one instrument");
 }
 
+Result<PixelRegion> ReadRegion(const std::string& text) {
+  std::array<int, 4> numbers{};
+  std::size_t count = 0;
+  std::istringstream items(text);
+  for (std::string item; std::getline(items, item, ','); ++count) {
+    const auto number = ParseInt(item);
+    if (!number || count == numbers.size()) break;
+    numbers[count] = *number;
+  }
+  if (count != numbers.size() || numbers[2] <= 0 || numbers[3] <= 0)
+    return Error{ErrorKind::kUsage, "--cull '" + text +
+                                        "' is no region; give four whole numbers X,Y,WIDTH,HEIGHT "
+                                        "in pixels of the sensor, such as 0,0,200,972"};
+  return PixelRegion{numbers[0], numbers[1], numbers[2], numbers[3]};
+}
+
 }  // namespace
 
-Result<CalibrateChoices> ReadChoices(bool robust, const fs::path& compare) {
+Result<CalibrateChoices> ReadChoices(const CalibrateArguments& arguments) {
   CalibrateChoices choices;
-  choices.robust = robust;
-  if (compare.empty()) return choices;
-  EarlierCalibration earlier{compare, {}, {}};
-  TELESTRAIN_ASSIGN_OR_RETURN(earlier.array, ReadArrayCalibration(compare));
-  TELESTRAIN_ASSIGN_OR_RETURN(earlier.sha256, Sha256HexOfFile(compare));
+  choices.options.robust = arguments.outliers == "weigh";
+  if (arguments.outliers == "mrcal") choices.options.outliers.scale = OutlierScale::kMrcal;
+  choices.options.board_warp = arguments.board_warp;
+  for (const std::string& text : arguments.culled) {
+    TELESTRAIN_ASSIGN_OR_RETURN(const PixelRegion region, ReadRegion(text));
+    choices.options.culled.push_back(region);
+  }
+  if (arguments.compare.empty()) return choices;
+  EarlierCalibration earlier{arguments.compare, {}, {}};
+  TELESTRAIN_ASSIGN_OR_RETURN(earlier.array, ReadArrayCalibration(earlier.path));
+  TELESTRAIN_ASSIGN_OR_RETURN(earlier.sha256, Sha256HexOfFile(earlier.path));
   choices.earlier = std::move(earlier);
   return choices;
 }
@@ -118,8 +142,7 @@ Status CalibrateStep(const Session& session, const fs::path& results,
   if (choices.earlier) TELESTRAIN_RETURN_IF_ERROR(RequireSameViews(*choices.earlier, session));
   TELESTRAIN_ASSIGN_OR_RETURN(const std::vector<BoardObservation> boards,
                               ReadDetectedBoards(session, results));
-  CalibrationOptions options;
-  options.robust = choices.robust;
+  CalibrationOptions options = choices.options;
   options.noise_is_assumed = session.corners_are_given;
   TELESTRAIN_RETURN_IF_ERROR(RemoveOutputsFrom(results, Step::kCalibrate));
   TELESTRAIN_ASSIGN_OR_RETURN(const Calibration calibration, Calibrate(session, boards, options));

@@ -46,7 +46,9 @@ void AddCornersOption(CLI::App& app, std::string& corners);
 // How to calibrate.
 struct CalibrateArguments {
   std::string compare;
-  bool robust = false;
+  std::string outliers = "median";  // or "mrcal", "weigh"
+  bool board_warp = false;
+  std::vector<std::string> culled;  // "X,Y,WIDTH,HEIGHT"
   void AddTo(CLI::App& app);
 };
 

@@ -22,8 +22,7 @@ class CalibrateCommand : public Command {
     choices_.AddTo(app);
   }
   Result<int> Run(Console& console) override {
-    TELESTRAIN_ASSIGN_OR_RETURN(const CalibrateChoices choices,
-                                ReadChoices(choices_.robust, choices_.compare));
+    TELESTRAIN_ASSIGN_OR_RETURN(const CalibrateChoices choices, ReadChoices(choices_));
     TELESTRAIN_ASSIGN_OR_RETURN(const Session session,
                                 corners_.empty()
                                     ? ReopenSession(arguments_.session, arguments_.out)

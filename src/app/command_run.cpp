@@ -29,8 +29,7 @@ class RunCommand : public Command {
   }
   Result<int> Run(Console& console) override {
     const std::string& out = arguments_.out;
-    TELESTRAIN_ASSIGN_OR_RETURN(const CalibrateChoices choices,
-                                ReadChoices(choices_.robust, choices_.compare));
+    TELESTRAIN_ASSIGN_OR_RETURN(const CalibrateChoices choices, ReadChoices(choices_));
     TELESTRAIN_ASSIGN_OR_RETURN(const Session session,
                                 OpenSession(arguments_.session, out, corners_));
     TELESTRAIN_RETURN_IF_ERROR(DetectStep(session, out, corners_, console));

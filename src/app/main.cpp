@@ -27,8 +27,16 @@ void CalibrateArguments::AddTo(CLI::App& app) {
   app.add_option("--compare", compare,
                  "an earlier calibration.json of this instrument: says what moved since, in um on "
                  "the object and in microstrain");
-  app.add_flag("--robust", robust,
-               "weigh corners down by their misfit (Cauchy's loss) instead of removing outliers");
+  app.add_option("--outliers", outliers,
+                 "what becomes of corners that do not fit: removed beyond 5 sigma by the median "
+                 "(median), by mrcal's rule with the sample's sigma (mrcal), or weighed down by "
+                 "Cauchy's loss (weigh)")
+      ->check(CLI::IsMember({"median", "mrcal", "weigh"}))
+      ->capture_default_str();
+  app.add_flag("--board-warp", board_warp,
+               "estimate how the boards bow (as mrcal does), whether a test asks for it or not");
+  app.add_option("--cull", culled,
+                 "leave out the corners in X,Y,WIDTH,HEIGHT (px on the sensor); may be repeated");
 }
 
 namespace {

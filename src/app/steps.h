@@ -4,9 +4,10 @@
 #include <optional>
 #include <string>
 
+#include "app/command.h"
 #include "base/console.h"
 #include "base/result.h"
-#include "calibration/array_calibration.h"
+#include "calibration/calibrate.h"
 #include "session/session.h"
 
 namespace telestrain {
@@ -36,13 +37,13 @@ struct EarlierCalibration {
 
 // How `calibrate` works beside its defaults.
 struct CalibrateChoices {
-  bool robust = false;  // weigh outliers down instead of removing them
+  CalibrationOptions options;
   // An earlier calibration; writes comparison.json. Read before the results folder is opened,
   // where it may lie.
   std::optional<EarlierCalibration> earlier;
 };
-// Reads the earlier calibration when `compare` is not empty.
-Result<CalibrateChoices> ReadChoices(bool robust, const std::filesystem::path& compare);
+// Reads the earlier calibration when one is named. Fails (kUsage) for a culled region that is none.
+Result<CalibrateChoices> ReadChoices(const CalibrateArguments& arguments);
 Status CalibrateStep(const Session& session, const std::filesystem::path& results,
                      const CalibrateChoices& choices, Console& console);
 Status VerifyStep(const Session& session, const std::filesystem::path& results, Console& console);

@@ -1,5 +1,6 @@
 #include "calibration/board_residual.h"
 
+#include <array>
 #include <cmath>
 
 #include "geometry/rotation.h"
@@ -123,16 +124,17 @@ void BoardResidual::WriteJacobian(const Chain& chain, const GramFactor& factor, 
   if (block == kLens) {
     for (int i = 0, column = images; i < kLensSize; ++i)
       if (model_.plan.lens_free[static_cast<std::size_t>(i)]) rows.col(i) = factor.col(column++);
-    for (int i = 0; i < kLensSize; ++i) rows(n - 1, i) = 0;
     return;
   }
   const int first = block == kPose ? kPoseSize * model_.pose : 0;
-  // Rows past the image's columns are zero: the factor is upper triangular.
   chain.ForEachDerivative(block, geometry_, [&](int index, const ImageFromBasis& derivative) {
-    for (int row = 0; row < images; ++row) {
+    std::array<double, kMaxColumns> by_column{};
+    for (int column = 0; column < images; ++column)
+      by_column[static_cast<std::size_t>(column)] = derivative(column / basis, column % basis);
+    for (int row = 0; row + 1 < n; ++row) {
       double sum = 0;
-      for (int column = row; column < images; ++column)
-        sum += factor(row, column) * derivative(column / basis, column % basis);
+      for (int column = 0; column < images; ++column)
+        sum += factor(row, column) * by_column[static_cast<std::size_t>(column)];
       rows(row, first + index) = sum;
     }
   });

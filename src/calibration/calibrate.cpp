@@ -32,8 +32,9 @@ ArrayState StateFromSeed(const Session& session, const ArraySeed& seed) {
   return state;
 }
 
-BundleOptions OptionsFor(const Session& session) {
+BundleOptions OptionsFor(const Session& session, const CalibrationOptions& options) {
   BundleOptions bundle;
+  bundle.estimate_bow = options.board_warp;
   bundle.stage_sigma_mm = session.stage_sigma_mm;
   return bundle;
 }
@@ -111,8 +112,8 @@ Result<T> Explain(const Session& session, const CalibrationData& data,
 // that follows the median residual down, then whatever the residuals still want of the model, so
 // that what a model lacks is not taken for mistakes.
 Result<ArrayState> SolveRobustly(const Session& session, const CalibrationData& data,
-                                 const ArrayState& seed, const ModelChoiceOptions& choice) {
-  BundleOptions options = OptionsFor(session);
+                                 const ArrayState& seed, const CalibrationOptions& choices) {
+  BundleOptions options = OptionsFor(session, choices);
   options.model = kSearchModel;
   TELESTRAIN_ASSIGN_OR_RETURN(BundleResult solved, AdjustBundle(data, seed, options));
   for (int round = 0; round < kScaleRounds; ++round) {
@@ -120,7 +121,7 @@ Result<ArrayState> SolveRobustly(const Session& session, const CalibrationData& 
     TELESTRAIN_ASSIGN_OR_RETURN(solved, AdjustBundle(data, solved.state, options));
   }
   TELESTRAIN_ASSIGN_OR_RETURN(const ChosenModel chosen,
-                              ChooseModel(data, solved.state, options, choice));
+                              ChooseModel(data, solved.state, options, choices.model_choice));
   return chosen.bundle.state;
 }
 
@@ -135,9 +136,9 @@ Result<ArrayState> SolveWithoutOutliers(const Session& session, const Calibratio
     TELESTRAIN_RETURN_IF_ERROR(RequireStatedTravels(session, data, calibration.seed.poses));
     TELESTRAIN_RETURN_IF_ERROR(RequireDifferentPoses(calibration.seed.poses));
     const ArrayState seed = StateFromSeed(session, calibration.seed);
-    TELESTRAIN_ASSIGN_OR_RETURN(const ArrayState state,
-                                Explain(session, data, seed.poses,
-                                        SolveRobustly(session, data, seed, options.model_choice)));
+    TELESTRAIN_ASSIGN_OR_RETURN(
+        const ArrayState state,
+        Explain(session, data, seed.poses, SolveRobustly(session, data, seed, options)));
     if (RemoveOutliers(session, state, options.outliers, data) == 0) return state;
     TELESTRAIN_RETURN_IF_ERROR(RequireEnoughPoses(data));
     if (round == kOutlierRounds)
@@ -258,6 +259,7 @@ Result<Calibration> Calibrate(const Session& session,
   Calibration calibration;
   calibration.options = options;
   TELESTRAIN_ASSIGN_OR_RETURN(calibration.data, CollectCalibrationData(session, observations));
+  CullRegions(session, options.culled, calibration.data);
   DropCopiedImages(session, calibration.data);
   TELESTRAIN_RETURN_IF_ERROR(RequireEnoughPoses(calibration.data));
   const CalibrationData all = calibration.data;
@@ -265,9 +267,9 @@ Result<Calibration> Calibrate(const Session& session,
                               SolveWithoutOutliers(session, options, calibration));
   if (options.noise_is_assumed) ScaleNoise(clean, calibration.data);
   TELESTRAIN_ASSIGN_OR_RETURN(
-      ChosenModel chosen,
-      Explain(session, calibration.data, clean.poses,
-              ChooseModel(calibration.data, clean, OptionsFor(session), options.model_choice)));
+      ChosenModel chosen, Explain(session, calibration.data, clean.poses,
+                                  ChooseModel(calibration.data, clean, OptionsFor(session, options),
+                                              options.model_choice)));
   if (options.robust) {
     BringBackOutliers(all, calibration.data);
     chosen.options.robust_sigmas = kRobustSigmas * std::max(1.0, chosen.bundle.Sigma0());

@@ -23,6 +23,10 @@ struct CalibrationOptions {
   // Weighs every corner down by its own misfit (Cauchy's loss of three sigmas) and removes none:
   // for corners whose errors have long tails rather than a few mistakes.
   bool robust = false;
+  // Estimates the boards' bows whether a test asks for it or not (mrcal's board warp).
+  bool board_warp = false;
+  // Corners in these parts of the sensor are left out.
+  std::vector<PixelRegion> culled;
   // The corners came without covariances, so the residuals alone tell the noise.
   bool noise_is_assumed = false;
 };

@@ -119,6 +119,31 @@ void CalibrationData::DropUndeterminedImages(const Session& session) {
   images = std::move(kept);
 }
 
+void CullRegions(const Session& session, const std::vector<PixelRegion>& regions,
+                 CalibrationData& data) {
+  const auto is_inside = [&](const Eigen::Vector2d& pixel) {
+    return std::any_of(regions.begin(), regions.end(), [&](const PixelRegion& r) {
+      return pixel.x() >= r.x - 0.5 && pixel.x() < r.x + r.width - 0.5 && pixel.y() >= r.y - 0.5 &&
+             pixel.y() < r.y + r.height - 0.5;
+    });
+  };
+  for (BoardData& board : data.boards) {
+    std::vector<bool> remove;
+    for (Eigen::Index i = 0; i < board.Count(); ++i)
+      remove.push_back(is_inside(board.pixels.col(i)));
+    auto count = static_cast<int>(std::count(remove.begin(), remove.end(), true));
+    if (count == 0) continue;
+    const bool whole_board = board.Count() - count < kLeastCorners;
+    if (whole_board) remove.assign(remove.size(), true), count = static_cast<int>(board.Count());
+    data.rejected.push_back({data.images[static_cast<std::size_t>(board.image)].image,
+                             session.views[static_cast<std::size_t>(board.view)].name,
+                             "inside a culled region", count, whole_board});
+    board.RemoveCorners(remove);
+  }
+  std::erase_if(data.boards, [](const BoardData& board) { return board.Count() == 0; });
+  data.DropUndeterminedImages(session);
+}
+
 Result<CalibrationData> CollectCalibrationData(const Session& session,
                                                const std::vector<BoardObservation>& observations,
                                                double floor_px) {

@@ -54,4 +54,9 @@ Result<CalibrationData> CollectCalibrationData(const Session& session,
                                                const std::vector<BoardObservation>& observations,
                                                double floor_px = 0.001);
 
+// Takes the corners inside the regions (sensor pixels) out and lists them as rejected; a board that
+// keeps fewer than four goes whole.
+void CullRegions(const Session& session, const std::vector<PixelRegion>& regions,
+                 CalibrationData& data);
+
 }  // namespace telestrain

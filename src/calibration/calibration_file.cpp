@@ -158,14 +158,20 @@ Json ReprojectionJson(const Calibration& calibration, int boards_rejected) {
 Json SolverJson(const Calibration& calibration) {
   const BundleResult& bundle = calibration.bundle;
   const CalibrationOptions& options = calibration.options;
-  Json json{{"residuals", bundle.residual_count},
-            {"parameters", bundle.parameter_count},
-            {"chi2", bundle.TotalChi2()},
-            {"corners", options.noise_is_assumed ? "from a table" : "detected in the images"},
-            {"corner_noise", options.noise_is_assumed ? "from the residuals" : "from the detector"},
-            {"noise_floor_px", calibration.data.floor_px},
-            {"robust_sigmas", calibration.bundle_options.robust_sigmas},
-            {"outliers", options.robust ? "weighed down (Cauchy)" : "removed"}};
+  Json json{
+      {"residuals", bundle.residual_count},
+      {"parameters", bundle.parameter_count},
+      {"chi2", bundle.TotalChi2()},
+      {"corners", options.noise_is_assumed ? "from a table" : "detected in the images"},
+      {"corner_noise", options.noise_is_assumed ? "from the residuals" : "from the detector"},
+      {"noise_floor_px", calibration.data.floor_px},
+      {"robust_sigmas", calibration.bundle_options.robust_sigmas},
+      {"outliers", options.robust                                   ? "weighed down (Cauchy)"
+                   : options.outliers.scale == OutlierScale::kMrcal ? "removed (mrcal's rule)"
+                                                                    : "removed (median rule)"}};
+  json["culled_px"] = Json::array();
+  for (const PixelRegion& r : options.culled)
+    json["culled_px"].push_back({r.x, r.y, r.width, r.height});
   if (options.robust) json["corners_below_half_weight"] = calibration.corners_below_half_weight;
   return json;
 }

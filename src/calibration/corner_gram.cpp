@@ -231,23 +231,38 @@ GramFactor GramOf(Columns& columns) {
   return gram;
 }
 
-// Cholesky's factor of a positive semidefinite matrix, in place. A pivot that rounding alone can
-// explain is taken as zero. The last column is kept exactly in length.
-void FactorInPlace(double extra, GramFactor& g) {
+// Cholesky's factor of [J r]^T [J r], its columns taken in the order of what is left of them: the
+// magnification's column is a combination of the others for a perfect lens, and without pivoting
+// rounding would grow through such columns by their smallness. What rounding alone can explain
+// stands for all that it may hide, with its part of the gradient: without that the solver's
+// gradient would be wrong and it would stop too early. `extra` lengthens the last column.
+GramFactor PivotedFactor(double extra, const GramFactor& gram) {
   constexpr double kRounding = 1e-14;  // of the column's own square: 64 times the precision
-  const Eigen::Index n = g.rows();
-  for (Eigen::Index i = 0; i + 1 < n; ++i) {
-    double squared = 0;  // of the column, what the rows above hold of it
-    for (Eigen::Index k = 0; k < i; ++k) squared += g(k, i) * g(k, i);
-    const double pivot = g(i, i);
-    if (!(pivot > kRounding * (squared + pivot))) {
-      g.row(i).tail(n - i).setZero();
-      continue;
-    }
-    g.row(i).tail(n - i) /= std::sqrt(pivot);
-    for (Eigen::Index k = i + 1; k < n; ++k) g.row(k).tail(n - k) -= g(i, k) * g.row(i).tail(n - k);
+  const Eigen::Index n = gram.rows();
+  GramFactor left = gram.selfadjointView<Eigen::Upper>();
+  GramFactor factor = GramFactor::Zero(n, n);
+  Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, kMaxColumns> weight(n);
+  for (Eigen::Index i = 0; i < n; ++i) weight(i) = left(i, i) > 0 ? 1 / left(i, i) : 0;
+  weight(n - 1) = 0;
+  Eigen::Index row = 0, pivot = 0;
+  for (; row + 1 < n; ++row) {
+    const double share = (left.diagonal().transpose().array() * weight.array()).maxCoeff(&pivot);
+    if (!(share > kRounding)) break;
+    factor.row(row) = left.row(pivot) / std::sqrt(left(pivot, pivot));
+    left.noalias() -= factor.row(row).transpose() * factor.row(row);
+    left.row(pivot).setZero();
+    left.col(pivot).setZero();
+    weight(pivot) = 0;
   }
-  g(n - 1, n - 1) = std::sqrt(std::max(g(n - 1, n - 1), 0.0) + extra);
+  for (Eigen::Index column = 0; column + 1 < n; ++column) {
+    if (weight(column) == 0) continue;
+    factor(row, column) = std::sqrt(kRounding / weight(column));
+    factor(row, n - 1) = left(column, n - 1) / factor(row, column);
+    left(n - 1, n - 1) -= factor(row, n - 1) * factor(row, n - 1);
+    ++row;
+  }
+  factor(n - 1, n - 1) = std::sqrt(std::max(left(n - 1, n - 1), 0.0) + extra);
+  return factor;
 }
 
 }  // namespace
@@ -274,9 +289,7 @@ double LossOfBoard(const CornerArrays& corners, const GramPlan& plan, const Lens
 GramFactor FactorOfBoard(const CornerArrays& corners, const GramPlan& plan, const LensNumbers& lens,
                          const ImageFromBasis& image) {
   Columns columns = FillColumns(corners, plan, lens, image);
-  GramFactor gram = GramOf(columns);
-  FactorInPlace(columns.extra, gram);
-  return gram;
+  return PivotedFactor(columns.extra, GramOf(columns));
 }
 
 Eigen::MatrixXd ColumnsOfBoard(const CornerArrays& corners, const GramPlan& plan,

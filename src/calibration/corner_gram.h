@@ -47,11 +47,11 @@ using ImageFromBasis = Eigen::Matrix<double, 3, kBasisSize>;
 double LossOfBoard(const CornerArrays& corners, const GramPlan& plan, const LensNumbers& lens,
                    const ImageFromBasis& image);
 
-// Upper triangular R (ColumnCount square) with R^T R = [J r]^T [J r], where J holds the derivatives
-// of the whitened residuals by the image's elements (row by row), then by the free lens parameters,
-// and r, the residuals, is the last column; with a robust loss both are weighted, and the last
-// diagonal element also holds what makes |last column|^2 the sum of the losses. Columns that depend
-// on those before them give rows of zeros.
+// R (ColumnCount square) with R^T R = [J r]^T [J r], where J holds the derivatives of the whitened
+// residuals by the image's elements (row by row), then by the free lens parameters, and r, the
+// residuals, is the last column; with a robust loss both are weighted, and the last row, which
+// holds nothing else, also has what makes |last column|^2 the sum of the losses. Columns that
+// depend on others, as far as rounding lets it be seen, are 1e-7 of their length too long.
 using GramFactor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor,
                                  kMaxColumns, kMaxColumns>;
 GramFactor FactorOfBoard(const CornerArrays& corners, const GramPlan& plan, const LensNumbers& lens,

@@ -115,8 +115,11 @@ void Grow(const CalibrationData& data, const ModelChoiceOptions& choice, ChosenM
 }
 
 // An early step may have stood in for a later one: each is asked again in the company of all.
-void Prune(const CalibrationData& data, double significance, ChosenModel& best) {
+void Prune(const CalibrationData& data, const BundleOptions& wanted, double significance,
+           ChosenModel& best) {
   for (auto step = kSteps.rbegin(); step != kSteps.rend(); ++step) {
+    BundleOptions always = wanted;
+    if (step->remove(always)) continue;  // wanted whatever the data say
     BundleOptions without = best.options;
     if (!step->remove(without)) continue;
     auto solved = AdjustBundle(data, StartFor(without, best.bundle.state), without);
@@ -154,7 +157,7 @@ Result<ChosenModel> ChooseModel(const CalibrationData& data, const ArrayState& s
   TELESTRAIN_ASSIGN_OR_RETURN(best.bundle, AdjustBundle(data, StartFor(options, start), options));
   best.tests.push_back({"", TextOf(options), 0, best.bundle.TotalChi2(), 0, 1, true});
   Grow(data, choice, best);
-  Prune(data, choice.significance, best);
+  Prune(data, options, choice.significance, best);
   return best;
 }
 

@@ -64,6 +64,24 @@ BoardOutliers FindOutliers(const Eigen::Matrix2Xd& errors, const Eigen::Matrix2X
   return outliers;
 }
 
+// By mrcal's own rule.
+BoardOutliers FindMrcalOutliers(const Eigen::Matrix2Xd& errors, double limit) {
+  BoardOutliers outliers;
+  for (Eigen::Index i = 0; i < errors.cols(); ++i) {
+    outliers.remove.push_back(errors.col(i).cwiseAbs().maxCoeff() > limit);
+    outliers.count += outliers.remove.back();
+  }
+  // Fewer than four corners say nothing that the image's affine map does not absorb.
+  outliers.whole_board = errors.cols() - outliers.count < 4;
+  return outliers;
+}
+
+double SampleSigma(const std::vector<double>& sizes) {
+  double squares = 0;
+  for (const double size : sizes) squares += size * size;
+  return std::sqrt(squares / static_cast<double>(sizes.size()));
+}
+
 }  // namespace
 
 double RobustSigma(const CalibrationData& data, const ArrayState& state) {
@@ -74,24 +92,28 @@ int RemoveOutliers(const Session& session, const ArrayState& state, const Outlie
                    CalibrationData& data) {
   const auto errors = WhitenedErrors(data, state);
   const std::vector<double> sizes = SizesOf(errors);
-  const double sigma = std::max(kSmallestSigma, kSigmaOfMedian * Median(sizes));
+  const bool by_mrcal = options.scale == OutlierScale::kMrcal;
+  const double sigma =
+      by_mrcal ? SampleSigma(sizes) : std::max(kSmallestSigma, kSigmaOfMedian * Median(sizes));
   if (*std::max_element(sizes.begin(), sizes.end()) <= options.sigmas * sigma) return 0;
   int removed = 0;
   std::vector<bool> drop_board(data.boards.size(), false);
   for (std::size_t b = 0; b < data.boards.size(); ++b) {
     BoardData& board = data.boards[b];
     const BoardOutliers outliers =
-        FindOutliers(errors[b], ReprojectionErrors_px(state, board), sigma, options);
+        by_mrcal ? FindMrcalOutliers(errors[b], options.reject_sigmas * sigma)
+                 : FindOutliers(errors[b], ReprojectionErrors_px(state, board), sigma, options);
     if (outliers.count == 0) continue;
     drop_board[b] = outliers.whole_board;
     removed += outliers.count;
-    data.rejected.push_back({data.images[static_cast<std::size_t>(board.image)].image,
-                             session.views[static_cast<std::size_t>(board.view)].name,
-                             outliers.whole_board
-                                 ? "the board does not fit the array (more than a quarter of its "
-                                   "corners are outliers)"
-                                 : "corners are outliers",
-                             outliers.count, outliers.whole_board});
+    data.rejected.push_back(
+        {data.images[static_cast<std::size_t>(board.image)].image,
+         session.views[static_cast<std::size_t>(board.view)].name,
+         outliers.whole_board && by_mrcal ? "fewer than four corners of the board are no outliers"
+         : outliers.whole_board ? "the board does not fit the array (more than a quarter of its "
+                                  "corners are outliers)"
+                                : "corners are outliers",
+         outliers.count, outliers.whole_board});
     board.RemoveCorners(outliers.remove);
   }
   for (std::size_t b = data.boards.size(); b-- > 0;)

@@ -5,9 +5,14 @@
 namespace telestrain {
 
 // mrcal's rule: if any whitened coordinate exceeds the first limit, every corner beyond the second
-// is taken out. (mrcal measures in sample standard deviations, which outliers inflate; here a sigma
-// is 1.4826 times the median, and a corner within 0.1 px of the model is no mistake: MODEL.md 5.)
+// is taken out. What a sigma is:
+enum class OutlierScale {
+  kMedian,  // 1.4826 times the median; a corner within 0.1 px of the model is no mistake, a board
+            // that is worse as a whole has its own sigma or goes (MODEL.md 5)
+  kMrcal,   // the sample standard deviation, as mrcal has it: outliers inflate it
+};
 struct OutlierOptions {
+  OutlierScale scale = OutlierScale::kMedian;
   double sigmas = 5;
   double reject_sigmas = 4;
 };

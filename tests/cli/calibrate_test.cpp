@@ -1,7 +1,9 @@
-// What `calibrate` takes beside a session: corners from a file, an earlier calibration, --robust.
+// What `calibrate` takes beside a session: corners from a file, an earlier calibration, what
+// becomes of outliers, regions.
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <sstream>
 
 #include "base/files.h"
 #include "cli/session_copy.h"
@@ -80,9 +82,9 @@ TEST_F(CalibrateVerb, AnEarlierCalibrationThatIsMissingLeavesTheResultsAlone) {
   EXPECT_EQ(BytesBelow(results()), before);
 }
 
-TEST_F(CalibrateVerb, RobustKeepsEveryCorner) {
+TEST_F(CalibrateVerb, WeighingKeepsEveryCorner) {
   MustRun({"detect"});
-  const ProgramRun run = Calibrate({"--robust"});
+  const ProgramRun run = Calibrate({"--outliers", "weigh"});
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_TRUE(Holds(ReadAll(results() / "calibration.json"), "weighed down (Cauchy)"));
 }
@@ -92,10 +94,36 @@ TEST_F(CalibrateVerb, RunTakesTheSameChoices) {
   const fs::path old_file = scratch() / "earlier.json";
   fs::copy_file(results() / "calibration.json", old_file);
   const ProgramRun run = RunTelestrain({"run", session().string(), "--out", results().string(),
-                                        "--robust", "--compare", old_file.string()});
+                                        "--outliers", "weigh", "--compare", old_file.string()});
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_TRUE(Holds(ReadAll(results() / "calibration.json"), "weighed down (Cauchy)"));
   EXPECT_TRUE(fs::exists(results() / "comparison.json"));
+}
+
+TEST_F(CalibrateVerb, CulledRegionsAreLeftOutAndListed) {
+  MustRun({"detect"});
+  const ProgramRun run =
+      Calibrate({"--cull", "0,0,160,486", "--outliers", "mrcal", "--board-warp"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const std::string json = ReadAll(results() / "calibration.json");
+  EXPECT_TRUE(Holds(json, "inside a culled region"));
+  EXPECT_TRUE(Holds(json, "removed (mrcal's rule)"));
+  EXPECT_TRUE(Holds(json, "\"bow_is_estimated\": true"));
+  std::istringstream rows(ReadAll(results() / "residuals.csv"));
+  std::string row;
+  std::getline(rows, row);
+  while (std::getline(rows, row)) {
+    std::size_t at = 0;
+    for (int comma = 0; comma < 4; ++comma) at = row.find(',', at) + 1;
+    EXPECT_GE(std::stod(row.substr(at)), 159.5) << row;
+  }
+}
+
+TEST_F(CalibrateVerb, ARegionThatIsNoneIsWrongUsage) {
+  MustRun({"detect"});
+  const ProgramRun run = Calibrate({"--cull", "0,0,160"});
+  EXPECT_EQ(run.exit_code, 2) << run.out;
+  EXPECT_TRUE(Holds(run.err, "X,Y,WIDTH,HEIGHT")) << run.err;
 }
 
 }  // namespace

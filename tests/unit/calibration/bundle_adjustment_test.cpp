@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "calibration/outlier_rejection.h"
 #include "geometry/rotation.h"
 #include "unit/calibration/bundle_scene.h"
 
@@ -11,6 +12,7 @@ namespace telestrain {
 namespace {
 
 using testing_support::MakeScene;
+using testing_support::MakeSyntheticArray;
 using testing_support::MustAdjust;
 using testing_support::Random;
 using testing_support::Scene;
@@ -113,6 +115,29 @@ TEST(AdjustBundle, MovingTheFrameChangesNoResidual) {
                   .cwiseAbs()
                   .maxCoeff(),
               1e-5);
+}
+
+// One round of mrcal's rule, by its definition.
+TEST(RemoveOutliers, ByMrcalsRuleEverythingBeyondFourSampleSigmasGoes) {
+  Scene scene = MakeScene(0.1, 0.1, [](Scene&) {});
+  scene.data.boards[0].pixels(0, 5) += 4;
+  scene.data.boards[3].pixels(1, 40) -= 0.6;
+  double squares = 0;
+  for (const BoardData& board : scene.data.boards)
+    squares += ReprojectionErrors_px(scene.truth, board).squaredNorm();
+  const double sigma_px = std::sqrt(squares / (2 * static_cast<double>(scene.data.CornerCount())));
+  int beyond = 0;
+  for (const BoardData& board : scene.data.boards) {
+    const Eigen::Matrix2Xd errors = ReprojectionErrors_px(scene.truth, board).cwiseAbs();
+    beyond += static_cast<int>((errors.colwise().maxCoeff().array() > 4 * sigma_px).count());
+  }
+  const Eigen::Index before = scene.data.CornerCount();
+  OutlierOptions options;
+  options.scale = OutlierScale::kMrcal;
+  EXPECT_EQ(RemoveOutliers(MakeSyntheticArray({}).session, scene.truth, options, scene.data),
+            beyond);
+  EXPECT_EQ(scene.data.CornerCount(), before - beyond);
+  EXPECT_GE(beyond, 2);
 }
 
 TEST(AdjustBundle, GrossOutliersDoNotMoveTheRobustResult) {
