@@ -1,0 +1,294 @@
+#include "diagnostics/residual_pattern.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "diagnostics/noise_distributions.h"
+#include "diagnostics/pattern_catalogue.h"
+
+namespace telestrain {
+namespace {
+
+// A later pattern must explain this share of what the first one did: below it may be what the
+// first leaves because its effect is not quite linear.
+constexpr double kLinearShare = 0.01;
+// An alternative has nearly the gain of the pattern that is named.
+constexpr double kAlternativeShare = 0.9;
+constexpr double kParallelViews_rad = 0.02;
+
+struct Candidate {
+  PatternKind kind = PatternKind::kUnknown;
+  int view = -1, board = -1, image = -1;
+  const KnownPattern* pattern = nullptr;  // of the whole array
+  std::vector<std::size_t> boards;        // of a misfit
+  PatternFit fit;
+  double squares = 0;  // before it
+  double adjusted_p = 1;
+};
+
+// Asks for patterns, takes the strongest out, asks again.
+class Search {
+ public:
+  Search(const CalibrationData& data, const ArrayState& state, const PatternOptions& options)
+      : original_(data), data_(data), state_(state), options_(options) {
+    for (std::size_t i = 0; i < data.images.size(); ++i) image_.push_back(static_cast<int>(i));
+    Prepare();
+  }
+  // False when nothing significant is left.
+  bool FindOne();
+
+  std::vector<PatternFinding> findings;
+  int asked = 0;
+
+ private:
+  void Prepare();
+  std::vector<Candidate> Candidates() const;
+  PatternFinding FindingOf(const Candidate& best, const std::vector<Candidate>& all) const;
+  double TouchedRms_px(const Candidate& candidate) const;
+  bool LeaveOut(const Candidate& misfit, PatternFinding& finding);
+  bool ViewsDetermine(int image) const;
+  void DropImage(int image);
+
+  const CalibrationData& original_;
+  CalibrationData data_;
+  ArrayState state_;
+  PatternOptions options_;
+  std::vector<int> image_;  // original index of every image that is left
+  std::unique_ptr<PatternSystem> system_;
+  std::vector<KnownPattern> patterns_, offsets_;
+  std::vector<PatternFit> offset_fits_;
+  double squares_with_offsets_ = 0;
+  double least_explained_ = 0;
+};
+
+void Search::Prepare() {
+  system_ = std::make_unique<PatternSystem>(data_, state_);
+  offsets_ = ViewOffsets(*system_, state_);
+  offset_fits_.clear();
+  for (const KnownPattern& offset : offsets_) offset_fits_.push_back(system_->Fit(offset.columns));
+  squares_with_offsets_ = system_->Squares();
+  system_->TakeOut(AdjustedColumns(*system_, data_, state_));
+  patterns_ = KnownPatterns(*system_, data_, state_);
+  least_explained_ = 0;
+}
+
+std::vector<Candidate> Search::Candidates() const {
+  std::vector<Candidate> all;
+  for (const KnownPattern& p : patterns_)
+    all.push_back(
+        {p.kind, p.view, p.board, -1, &p, {}, system_->Fit(p.columns), system_->Squares(), 1});
+  for (std::size_t i = 0; i < offset_fits_.size(); ++i)
+    all.push_back({offsets_[i].kind,
+                   offsets_[i].view,
+                   -1,
+                   -1,
+                   &offsets_[i],
+                   {},
+                   offset_fits_[i],
+                   squares_with_offsets_,
+                   1});
+  std::vector<std::vector<std::size_t>> of_image(data_.images.size());
+  for (std::size_t b = 0; b < data_.boards.size(); ++b) {
+    const BoardData& board = data_.boards[b];
+    of_image[static_cast<std::size_t>(board.image)].push_back(b);
+    all.push_back({PatternKind::kBoardMisfit,
+                   board.view,
+                   board.geometry.board,
+                   board.image,
+                   nullptr,
+                   {b},
+                   system_->FitBoards({b}),
+                   system_->Squares(),
+                   1});
+  }
+  for (std::size_t image = 0; image < of_image.size(); ++image)
+    if (of_image[image].size() > 1)
+      all.push_back({PatternKind::kImageMisfit, -1, -1, static_cast<int>(image), nullptr,
+                     of_image[image], system_->FitBoards(of_image[image]), system_->Squares(), 1});
+  std::vector<double> p_values;
+  for (const Candidate& candidate : all) p_values.push_back(candidate.fit.p_value);
+  const std::vector<double> adjusted = HolmAdjusted(p_values);
+  for (std::size_t i = 0; i < all.size(); ++i) all[i].adjusted_p = adjusted[i];
+  return all;
+}
+
+bool Search::FindOne() {
+  const std::vector<Candidate> all = Candidates();
+  asked = std::max(asked, static_cast<int>(all.size()));
+  const Candidate* best = nullptr;
+  for (const Candidate& candidate : all)
+    if (candidate.adjusted_p < options_.significance &&
+        candidate.fit.explained > least_explained_ &&
+        (!best || candidate.fit.schwarz_gain > best->fit.schwarz_gain))
+      best = &candidate;
+  if (!best) return false;
+  PatternFinding finding = FindingOf(*best, all);
+  bool go_on = true;
+  if (!best->pattern) {
+    go_on = LeaveOut(*best, finding);
+  } else if (best->kind == PatternKind::kViewOffset) {
+    offset_fits_.clear();  // the adjusted columns hold it: the rest never sees it
+    offsets_.clear();
+  } else {
+    system_->TakeOut(best->pattern->columns);
+    least_explained_ = std::max(least_explained_, kLinearShare * best->fit.explained);
+  }
+  Describe(original_, state_, finding);
+  findings.push_back(finding);
+  return go_on;
+}
+
+// Root mean square of what the candidate explains, over the corners that it touches, in px.
+double Search::TouchedRms_px(const Candidate& c) const {
+  double whitened = 0, squares_px2 = 0;
+  int scalars = 0;
+  for (const BoardData& board : data_.boards) {
+    const bool touched = (c.view < 0 || board.view == c.view) &&
+                         (c.board < 0 || board.geometry.board == c.board) &&
+                         (c.image < 0 || board.image == c.image);
+    if (!touched) continue;
+    for (const Eigen::Matrix2d& w : board.whitening) whitened += w.squaredNorm() / 2;
+    scalars += 2 * static_cast<int>(board.Count());
+  }
+  squares_px2 = c.fit.explained / (2 * whitened / scalars);
+  return std::sqrt(squares_px2 / scalars);
+}
+
+PatternFinding Search::FindingOf(const Candidate& best, const std::vector<Candidate>& all) const {
+  PatternFinding finding;
+  finding.kind = best.kind;
+  finding.view = best.view;
+  finding.board = best.board;
+  finding.image = best.image < 0 ? -1 : image_[static_cast<std::size_t>(best.image)];
+  finding.rms_px = TouchedRms_px(best);
+  finding.share_of_squares = best.fit.explained / best.squares;
+  finding.parameters = best.fit.rank;
+  finding.f_statistic = best.fit.f_statistic;
+  finding.p_value = best.fit.p_value;
+  finding.adjusted_p_value = best.adjusted_p;
+  if (!best.pattern) return finding;
+  for (std::size_t i = 0; i < best.pattern->names.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    const double scale = best.pattern->shown_per_unit[i];
+    finding.values.push_back(
+        {best.pattern->names[i], scale * best.fit.values[row], scale * best.fit.sigmas[row]});
+  }
+  for (const Candidate& other : all) {
+    if (&other == &best || !other.pattern ||
+        other.fit.schwarz_gain < kAlternativeShare * best.fit.schwarz_gain)
+      continue;
+    PatternFinding named;
+    named.kind = other.kind;
+    named.view = other.view;
+    named.board = other.board;
+    Describe(original_, state_, named);
+    finding.alternatives.push_back(named.name);
+  }
+  return finding;
+}
+
+bool Search::ViewsDetermine(int image) const {
+  std::vector<Eigen::Vector3d> directions;
+  for (const BoardData& board : data_.boards)
+    if (board.image == image)
+      directions.push_back(state_.array.views[static_cast<std::size_t>(board.view)].RayDirection());
+  for (const Eigen::Vector3d& direction : directions)
+    if (direction.cross(directions.front()).norm() > kParallelViews_rad) return true;
+  return false;
+}
+
+void Search::DropImage(int image) {
+  std::erase_if(data_.boards, [&](const BoardData& board) { return board.image == image; });
+  for (BoardData& board : data_.boards) board.image -= board.image > image;
+  data_.images.erase(data_.images.begin() + image);
+  state_.poses.erase(state_.poses.begin() + image);
+  image_.erase(image_.begin() + image);
+}
+
+// Leaves the boards out, adjusts the rest and reads the labels of a single board. False when the
+// rest cannot be adjusted.
+bool Search::LeaveOut(const Candidate& misfit, PatternFinding& finding) {
+  const BoardData first = data_.boards[misfit.boards.front()];
+  for (auto b = misfit.boards.rbegin(); b != misfit.boards.rend(); ++b)
+    data_.boards.erase(data_.boards.begin() + static_cast<std::ptrdiff_t>(*b));
+  const bool pose_is_known = ViewsDetermine(misfit.image);
+  if (!pose_is_known) DropImage(misfit.image);
+  if (data_.images.size() < 3) return false;
+  auto adjusted = AdjustBundle(data_, state_, OptionsOf(data_, state_));
+  if (!adjusted) return false;
+  state_ = std::move(adjusted).value().state;
+  if (misfit.boards.size() == 1 && pose_is_known) {
+    finding.labels = ReadLabels(first, data_.target, state_);
+    finding.rms_px = finding.labels.rms_as_labelled_px;
+    if (finding.labels.IsMislabelled()) finding.kind = PatternKind::kMislabelled;
+  }
+  Prepare();
+  return true;
+}
+
+const SpatialTest* StrongestSpatial(const NoiseReport& noise) {
+  const auto found = std::min_element(
+      noise.spatial.begin(), noise.spatial.end(),
+      [](const SpatialTest& a, const SpatialTest& b) { return a.p_value < b.p_value; });
+  return found == noise.spatial.end() ? nullptr : &*found;
+}
+
+// Neighbours are alike though no known pattern was found.
+void AddUnknown(const CalibrationData& data, const ArrayState& state, const PatternOptions& options,
+                ResidualVerdict& verdict) {
+  const SpatialTest* test = StrongestSpatial(verdict.noise);
+  if (!verdict.findings.empty() || !test || test->adjusted_p_value >= options.spatial_significance)
+    return;
+  PatternFinding finding;
+  finding.view = test->view;
+  finding.p_value = test->p_value;
+  finding.adjusted_p_value = test->adjusted_p_value;
+  // Of neighbours the likeness is the pattern's share of the variance.
+  const ResidualSummary summary = Summarise(OfView(ResidualsOf(data, state), test->view));
+  finding.share_of_squares = std::clamp(test->morans_i, 0.0, 1.0);
+  finding.rms_px = summary.sigma_px * std::sqrt(finding.share_of_squares);
+  Describe(data, state, finding);
+  verdict.findings.push_back(finding);
+}
+
+void Conclude(const PatternOptions& options, ResidualVerdict& verdict) {
+  if (!verdict.findings.empty()) {
+    verdict.kind = ResidualVerdict::Kind::kPattern;
+    verdict.text = "A pattern remains: looks like " + verdict.findings.front().text;
+  } else if (verdict.noise.normality.p_value < options.normality_significance) {
+    verdict.kind = ResidualVerdict::Kind::kNotNormal;
+    verdict.text = std::string(
+                       "No pattern remains, but the residuals are not normally "
+                       "distributed: ") +
+                   (verdict.noise.normality.excess_kurtosis > 0
+                        ? "large ones are too many, so some corners are mistakes or noisier."
+                        : "large ones are too few.");
+  } else {
+    verdict.text = "The residuals are noise.";
+  }
+}
+
+}  // namespace
+
+ResidualVerdict JudgeResiduals(const CalibrationData& data, const ArrayState& state,
+                               const PatternOptions& options) {
+  ResidualVerdict verdict;
+  {
+    PatternSystem system(data, state);
+    system.TakeOut(AdjustedColumns(system, data, state));
+    verdict.degrees = system.Degrees();
+  }
+  verdict.noise = TestNoise(ResidualsOf(data, state), verdict.degrees, data.target.columns);
+  Search search(data, state, options);
+  while (static_cast<int>(search.findings.size()) < options.most_findings && search.FindOne()) {
+  }
+  verdict.findings = std::move(search.findings);
+  verdict.patterns_asked = search.asked;
+  AddUnknown(data, state, options, verdict);
+  Conclude(options, verdict);
+  return verdict;
+}
+
+}  // namespace telestrain
