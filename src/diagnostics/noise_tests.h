@@ -1,6 +1,5 @@
 #pragma once
 
-#include <utility>
 #include <vector>
 
 #include "diagnostics/residual_statistics.h"
@@ -73,14 +72,5 @@ NoiseReport TestNoise(const ResidualList& residuals, int degrees, int grid_colum
 
 ChiSquareTest TestChiSquare(const ResidualList& residuals, int degrees);
 NormalityTest TestNormality(std::vector<double> values);
-
-// Moran's I of values at places of which some pairs are neighbours, each pair once. Without
-// neighbours or spread z is 0 and p 1.
-struct MoranStatistic {
-  double i = 0, expected = 0, z = 0;
-  double p_value = 1;  // of more likeness
-};
-MoranStatistic MoransI(const std::vector<double>& values,
-                       const std::vector<std::pair<int, int>>& neighbours);
 
 }  // namespace telestrain

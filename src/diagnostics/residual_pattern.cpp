@@ -1,12 +1,12 @@
 #include "diagnostics/residual_pattern.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <memory>
 
 #include "diagnostics/noise_distributions.h"
 #include "diagnostics/pattern_catalogue.h"
+#include "diagnostics/pattern_misfit.h"
 
 namespace telestrain {
 namespace {
@@ -14,9 +14,12 @@ namespace {
 // A later pattern must explain this share of what the first one did: below it may be what the
 // first leaves because its effect is not quite linear.
 constexpr double kLinearShare = 0.01;
-// An alternative has nearly the gain of the pattern that is named.
-constexpr double kAlternativeShare = 0.9;
-constexpr double kParallelViews_rad = 0.02;
+// Schwarz's criterion differs by more when the corners tell two patterns apart (Kass and Raftery,
+// J. Am. Stat. Assoc. 90, 1995: very strong evidence).
+constexpr double kDecisiveGain = 10;
+constexpr std::size_t kFewestImages = 3;  // below, the array is not determined
+// Whitened residuals below this are rounding and have no distribution to speak of.
+constexpr double kRounding = 0.01;
 
 struct Candidate {
   PatternKind kind = PatternKind::kUnknown;
@@ -27,6 +30,19 @@ struct Candidate {
   double squares = 0;  // before it
   double adjusted_p = 1;
 };
+
+std::vector<BoardData> BoardsOfImage(const CalibrationData& data, int image) {
+  std::vector<BoardData> boards;
+  for (const BoardData& board : data.boards)
+    if (board.image == image) boards.push_back(board);
+  return boards;
+}
+
+void SetMisfit(PatternKind kind, int view, int board, PatternFinding& finding) {
+  finding.kind = kind;
+  finding.view = view;
+  finding.board = board;
+}
 
 // Asks for patterns, takes the strongest out, asks again.
 class Search {
@@ -48,7 +64,7 @@ class Search {
   PatternFinding FindingOf(const Candidate& best, const std::vector<Candidate>& all) const;
   double TouchedRms_px(const Candidate& candidate) const;
   bool LeaveOut(const Candidate& misfit, PatternFinding& finding);
-  bool ViewsDetermine(int image) const;
+  bool Adjust();
   void DropImage(int image);
 
   const CalibrationData& original_;
@@ -176,8 +192,8 @@ PatternFinding Search::FindingOf(const Candidate& best, const std::vector<Candid
         {best.pattern->names[i], scale * best.fit.values[row], scale * best.fit.sigmas[row]});
   }
   for (const Candidate& other : all) {
-    if (&other == &best || !other.pattern ||
-        other.fit.schwarz_gain < kAlternativeShare * best.fit.schwarz_gain)
+    if (&other == &best || !other.pattern || other.adjusted_p >= options_.significance ||
+        other.fit.schwarz_gain < best.fit.schwarz_gain - kDecisiveGain)
       continue;
     PatternFinding named;
     named.kind = other.kind;
@@ -189,16 +205,6 @@ PatternFinding Search::FindingOf(const Candidate& best, const std::vector<Candid
   return finding;
 }
 
-bool Search::ViewsDetermine(int image) const {
-  std::vector<Eigen::Vector3d> directions;
-  for (const BoardData& board : data_.boards)
-    if (board.image == image)
-      directions.push_back(state_.array.views[static_cast<std::size_t>(board.view)].RayDirection());
-  for (const Eigen::Vector3d& direction : directions)
-    if (direction.cross(directions.front()).norm() > kParallelViews_rad) return true;
-  return false;
-}
-
 void Search::DropImage(int image) {
   std::erase_if(data_.boards, [&](const BoardData& board) { return board.image == image; });
   for (BoardData& board : data_.boards) board.image -= board.image > image;
@@ -207,23 +213,41 @@ void Search::DropImage(int image) {
   image_.erase(image_.begin() + image);
 }
 
-// Leaves the boards out, adjusts the rest and reads the labels of a single board. False when the
-// rest cannot be adjusted.
-bool Search::LeaveOut(const Candidate& misfit, PatternFinding& finding) {
-  const BoardData first = data_.boards[misfit.boards.front()];
-  for (auto b = misfit.boards.rbegin(); b != misfit.boards.rend(); ++b)
-    data_.boards.erase(data_.boards.begin() + static_cast<std::ptrdiff_t>(*b));
-  const bool pose_is_known = ViewsDetermine(misfit.image);
-  if (!pose_is_known) DropImage(misfit.image);
-  if (data_.images.size() < 3) return false;
+bool Search::Adjust() {
+  if (data_.images.size() < kFewestImages) return false;
   auto adjusted = AdjustBundle(data_, state_, OptionsOf(data_, state_));
-  if (!adjusted) return false;
-  state_ = std::move(adjusted).value().state;
-  if (misfit.boards.size() == 1 && pose_is_known) {
-    finding.labels = ReadLabels(first, data_.target, state_);
-    finding.rms_px = finding.labels.rms_as_labelled_px;
-    if (finding.labels.IsMislabelled()) finding.kind = PatternKind::kMislabelled;
+  if (adjusted) state_ = std::move(adjusted).value().state;
+  return adjusted.ok();
+}
+
+// Leaves the image out and adjusts the rest. When one of its boards alone is to blame, the others
+// come back. False when the rest cannot be adjusted.
+bool Search::LeaveOut(const Candidate& misfit, PatternFinding& finding) {
+  const CalibrationData with_image = data_;
+  const int image = misfit.image;
+  const TargetPose start = state_.poses[static_cast<std::size_t>(image)];
+  const std::vector<BoardData> boards = BoardsOfImage(data_, image);
+  DropImage(image);
+  if (!Adjust()) return false;
+  Prepare();
+  const double sigma0 = std::sqrt(system_->Squares() / std::max(1, system_->Degrees()));
+  const ImageMisfit found = ExamineImage(boards, data_.target, state_, start, sigma0);
+  if (found.culprit < 0) {
+    SetMisfit(PatternKind::kImageMisfit, -1, -1, finding);
+    return true;
   }
+  const BoardData& culprit = boards[static_cast<std::size_t>(found.culprit)];
+  SetMisfit(found.labels.IsMislabelled() ? PatternKind::kMislabelled : PatternKind::kBoardMisfit,
+            culprit.view, culprit.geometry.board, finding);
+  finding.labels = found.labels;
+  finding.rms_px = found.labels.rms_as_labelled_px;
+  data_ = with_image;
+  std::erase_if(data_.boards, [&](const BoardData& board) {
+    return board.image == image && board.view == culprit.view;
+  });
+  state_.poses.insert(state_.poses.begin() + image, found.pose);
+  image_.insert(image_.begin() + image, finding.image);
+  if (!Adjust()) return false;
   Prepare();
   return true;
 }
@@ -257,7 +281,8 @@ void Conclude(const PatternOptions& options, ResidualVerdict& verdict) {
   if (!verdict.findings.empty()) {
     verdict.kind = ResidualVerdict::Kind::kPattern;
     verdict.text = "A pattern remains: looks like " + verdict.findings.front().text;
-  } else if (verdict.noise.normality.p_value < options.normality_significance) {
+  } else if (verdict.noise.chi_square.sigma0 >= kRounding &&
+             verdict.noise.normality.p_value < options.normality_significance) {
     verdict.kind = ResidualVerdict::Kind::kNotNormal;
     verdict.text = std::string(
                        "No pattern remains, but the residuals are not normally "

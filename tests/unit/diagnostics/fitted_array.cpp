@@ -15,7 +15,10 @@ FittedArray FitArray(const FitOptions& options) {
   fitted.data = *CollectCalibrationData(fitted.array.session, fitted.array.boards);
   ArrayState start;
   start.array.lenses = {fitted.array.lens};
-  start.array.lenses.front().distortion = {};
+  TelecentricLens& lens = start.array.lenses.front();  // a perfect one
+  lens.distortion = {};
+  lens.aspect = 1;
+  lens.telecentricity_per_mm = 0;
   start.array.views = fitted.array.views;
   start.poses = fitted.array.poses;
   auto bundle = AdjustBundle(fitted.data, start, options.bundle);

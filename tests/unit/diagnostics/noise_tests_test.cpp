@@ -7,6 +7,7 @@
 #include <cmath>
 #include <iostream>
 
+#include "diagnostics/noise_moran.h"
 #include "unit/calibration/synthetic_array.h"
 
 namespace telestrain {

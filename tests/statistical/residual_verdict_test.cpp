@@ -1,0 +1,113 @@
+// How often the verdict on residuals is wrong: false alarms on calibrations of pure noise, and
+// names given to planted faults that are near what can be seen.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <iostream>
+
+#include "unit/diagnostics/fitted_array.h"
+
+namespace telestrain {
+namespace {
+
+using testing_support::FitArray;
+using testing_support::FitOptions;
+using testing_support::ShiftCorners;
+using testing_support::SyntheticArray;
+
+FitOptions Numbered(int number) {
+  FitOptions options;
+  options.synthetic.seed = 5000 + static_cast<std::uint64_t>(number);
+  options.synthetic.poses = number % 2 ? 9 : 6;
+  options.synthetic.noise_px = number % 4 < 2 ? 0.1 : 0.003;
+  options.synthetic.k1_per_mm2 = 1e-5;
+  options.bundle.model.distortion[0] = true;
+  options.bundle.model.per_view = number % 3 == 0;
+  return options;
+}
+
+TEST(ResidualVerdict, CallsNoiseNoise) {
+  constexpr int kCalibrations = 240;
+  int patterns = 0, not_normal = 0, unknown = 0, spatial = 0, trend = 0, normality = 0;
+  for (int i = 0; i < kCalibrations; ++i) {
+    const ResidualVerdict verdict = FitArray(Numbered(i)).Judge();
+    patterns += verdict.kind == ResidualVerdict::Kind::kPattern;
+    not_normal += verdict.kind == ResidualVerdict::Kind::kNotNormal;
+    unknown += !verdict.findings.empty() && verdict.findings[0].kind == PatternKind::kUnknown;
+    spatial += verdict.noise.SmallestSpatialP() < 0.05;
+    trend += verdict.noise.SmallestTrendP() < 0.05;
+    normality += verdict.noise.normality.p_value < 0.05;
+  }
+  std::cout << "of " << kCalibrations << ": patterns " << patterns << " (unknown " << unknown
+            << "), not normal " << not_normal << "; at 0.05: spatial " << spatial << ", trend "
+            << trend << ", normality " << normality << "\n";
+  EXPECT_LE(patterns + not_normal, 0.02 * kCalibrations);
+  const double most = 0.05 * kCalibrations + 3 * std::sqrt(0.05 * 0.95 * kCalibrations);
+  EXPECT_LE(spatial, most);
+  EXPECT_LE(trend, most);
+  EXPECT_LE(normality, most);
+}
+
+struct Planted {
+  const char* what;
+  PatternKind kind;
+  int view;
+  std::function<void(FitOptions&)> plant;
+};
+
+void PlantDrift(FitOptions& options, const Eigen::Vector2d& drift_px) {
+  options.corners = [drift_px](SyntheticArray& array) {
+    for (std::size_t image = 0; image < 18; ++image)
+      ShiftCorners(array, image, 1, [&](const Eigen::Vector2d&) {
+        return Eigen::Vector2d(drift_px * (static_cast<double>(image) / 17 - 0.5));
+      });
+  };
+}
+
+TEST(ResidualVerdict, NamesWeakFaults) {
+  const std::vector<Planted> faults = {
+      {"k1 of one view, 5e-6 per mm2", PatternKind::kRadialK1, 2,
+       [](FitOptions& o) {
+         o.truth = [](SyntheticArray& array) {
+           array.lens_of_view.assign(4, array.lens);
+           array.lens_of_view[2].distortion[0] = 5e-6;
+         };
+       }},
+      {"drift of one view along u, 0.06 px", PatternKind::kViewDrift, 1,
+       [](FitOptions& o) {
+         PlantDrift(o, {0.06, 0});
+       }},
+      {"drift of one view along v, 1 px", PatternKind::kViewDrift, 1,
+       [](FitOptions& o) {
+         PlantDrift(o, {0, 1});
+       }},
+      {"board by 0.08 px", PatternKind::kBoardMisfit, 3,
+       [](FitOptions& o) {
+         o.corners = [](SyntheticArray& array) {
+           ShiftCorners(array, 4, 3,
+                        [](const Eigen::Vector2d&) { return Eigen::Vector2d(0.08, 0); });
+         };
+       }},
+  };
+  constexpr int kRepeats = 40;
+  for (const Planted& fault : faults) {
+    int named = 0, found = 0;
+    for (int i = 0; i < kRepeats; ++i) {
+      FitOptions options;
+      options.synthetic.seed = 900 + static_cast<std::uint64_t>(i);
+      fault.plant(options);
+      const ResidualVerdict verdict = FitArray(options).Judge();
+      found += verdict.kind == ResidualVerdict::Kind::kPattern;
+      named += found > 0 && !verdict.findings.empty() && verdict.findings[0].kind == fault.kind &&
+               verdict.findings[0].view == fault.view;
+      if (i == 0) std::cout << "  " << verdict.text << "\n";
+    }
+    std::cout << fault.what << ": a pattern in " << found << ", named in " << named << " of "
+              << kRepeats << "\n";
+    EXPECT_GE(named, 0.8 * kRepeats) << fault.what;
+  }
+}
+
+}  // namespace
+}  // namespace telestrain
