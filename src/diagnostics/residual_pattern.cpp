@@ -2,255 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 
-#include "diagnostics/noise_distributions.h"
-#include "diagnostics/pattern_catalogue.h"
-#include "diagnostics/pattern_misfit.h"
+#include "base/numbers.h"
+#include "diagnostics/pattern_search.h"
 
 namespace telestrain {
 namespace {
 
-// A later pattern must explain this share of what the first one did: below it may be what the
-// first leaves because its effect is not quite linear.
-constexpr double kLinearShare = 0.01;
-// Schwarz's criterion differs by more when the corners tell two patterns apart (Kass and Raftery,
-// J. Am. Stat. Assoc. 90, 1995: very strong evidence).
-constexpr double kDecisiveGain = 10;
-constexpr std::size_t kFewestImages = 3;  // below, the array is not determined
 // Whitened residuals below this are rounding and have no distribution to speak of.
 constexpr double kRounding = 0.01;
-
-struct Candidate {
-  PatternKind kind = PatternKind::kUnknown;
-  int view = -1, board = -1, image = -1;
-  const KnownPattern* pattern = nullptr;  // of the whole array
-  std::vector<std::size_t> boards;        // of a misfit
-  PatternFit fit;
-  double squares = 0;  // before it
-  double adjusted_p = 1;
-};
-
-std::vector<BoardData> BoardsOfImage(const CalibrationData& data, int image) {
-  std::vector<BoardData> boards;
-  for (const BoardData& board : data.boards)
-    if (board.image == image) boards.push_back(board);
-  return boards;
-}
-
-void SetMisfit(PatternKind kind, int view, int board, PatternFinding& finding) {
-  finding.kind = kind;
-  finding.view = view;
-  finding.board = board;
-}
-
-// Asks for patterns, takes the strongest out, asks again.
-class Search {
- public:
-  Search(const CalibrationData& data, const ArrayState& state, const PatternOptions& options)
-      : original_(data), data_(data), state_(state), options_(options) {
-    for (std::size_t i = 0; i < data.images.size(); ++i) image_.push_back(static_cast<int>(i));
-    Prepare();
-  }
-  // False when nothing significant is left.
-  bool FindOne();
-
-  std::vector<PatternFinding> findings;
-  int asked = 0;
-
- private:
-  void Prepare();
-  std::vector<Candidate> Candidates() const;
-  PatternFinding FindingOf(const Candidate& best, const std::vector<Candidate>& all) const;
-  double TouchedRms_px(const Candidate& candidate) const;
-  bool LeaveOut(const Candidate& misfit, PatternFinding& finding);
-  bool Adjust();
-  void DropImage(int image);
-
-  const CalibrationData& original_;
-  CalibrationData data_;
-  ArrayState state_;
-  PatternOptions options_;
-  std::vector<int> image_;  // original index of every image that is left
-  std::unique_ptr<PatternSystem> system_;
-  std::vector<KnownPattern> patterns_, offsets_;
-  std::vector<PatternFit> offset_fits_;
-  double squares_with_offsets_ = 0;
-  double least_explained_ = 0;
-};
-
-void Search::Prepare() {
-  system_ = std::make_unique<PatternSystem>(data_, state_);
-  offsets_ = ViewOffsets(*system_, state_);
-  offset_fits_.clear();
-  for (const KnownPattern& offset : offsets_) offset_fits_.push_back(system_->Fit(offset.columns));
-  squares_with_offsets_ = system_->Squares();
-  system_->TakeOut(AdjustedColumns(*system_, data_, state_));
-  patterns_ = KnownPatterns(*system_, data_, state_);
-  least_explained_ = 0;
-}
-
-std::vector<Candidate> Search::Candidates() const {
-  std::vector<Candidate> all;
-  for (const KnownPattern& p : patterns_)
-    all.push_back(
-        {p.kind, p.view, p.board, -1, &p, {}, system_->Fit(p.columns), system_->Squares(), 1});
-  for (std::size_t i = 0; i < offset_fits_.size(); ++i)
-    all.push_back({offsets_[i].kind,
-                   offsets_[i].view,
-                   -1,
-                   -1,
-                   &offsets_[i],
-                   {},
-                   offset_fits_[i],
-                   squares_with_offsets_,
-                   1});
-  std::vector<std::vector<std::size_t>> of_image(data_.images.size());
-  for (std::size_t b = 0; b < data_.boards.size(); ++b) {
-    const BoardData& board = data_.boards[b];
-    of_image[static_cast<std::size_t>(board.image)].push_back(b);
-    all.push_back({PatternKind::kBoardMisfit,
-                   board.view,
-                   board.geometry.board,
-                   board.image,
-                   nullptr,
-                   {b},
-                   system_->FitBoards({b}),
-                   system_->Squares(),
-                   1});
-  }
-  for (std::size_t image = 0; image < of_image.size(); ++image)
-    if (of_image[image].size() > 1)
-      all.push_back({PatternKind::kImageMisfit, -1, -1, static_cast<int>(image), nullptr,
-                     of_image[image], system_->FitBoards(of_image[image]), system_->Squares(), 1});
-  std::vector<double> p_values;
-  for (const Candidate& candidate : all) p_values.push_back(candidate.fit.p_value);
-  const std::vector<double> adjusted = HolmAdjusted(p_values);
-  for (std::size_t i = 0; i < all.size(); ++i) all[i].adjusted_p = adjusted[i];
-  return all;
-}
-
-bool Search::FindOne() {
-  const std::vector<Candidate> all = Candidates();
-  asked = std::max(asked, static_cast<int>(all.size()));
-  const Candidate* best = nullptr;
-  for (const Candidate& candidate : all)
-    if (candidate.adjusted_p < options_.significance &&
-        candidate.fit.explained > least_explained_ &&
-        (!best || candidate.fit.schwarz_gain > best->fit.schwarz_gain))
-      best = &candidate;
-  if (!best) return false;
-  PatternFinding finding = FindingOf(*best, all);
-  bool go_on = true;
-  if (!best->pattern) {
-    go_on = LeaveOut(*best, finding);
-  } else if (best->kind == PatternKind::kViewOffset) {
-    offset_fits_.clear();  // the adjusted columns hold it: the rest never sees it
-    offsets_.clear();
-  } else {
-    system_->TakeOut(best->pattern->columns);
-    least_explained_ = std::max(least_explained_, kLinearShare * best->fit.explained);
-  }
-  Describe(original_, state_, finding);
-  findings.push_back(finding);
-  return go_on;
-}
-
-// Root mean square of what the candidate explains, over the corners that it touches, in px.
-double Search::TouchedRms_px(const Candidate& c) const {
-  double whitened = 0, squares_px2 = 0;
-  int scalars = 0;
-  for (const BoardData& board : data_.boards) {
-    const bool touched = (c.view < 0 || board.view == c.view) &&
-                         (c.board < 0 || board.geometry.board == c.board) &&
-                         (c.image < 0 || board.image == c.image);
-    if (!touched) continue;
-    for (const Eigen::Matrix2d& w : board.whitening) whitened += w.squaredNorm() / 2;
-    scalars += 2 * static_cast<int>(board.Count());
-  }
-  squares_px2 = c.fit.explained / (2 * whitened / scalars);
-  return std::sqrt(squares_px2 / scalars);
-}
-
-PatternFinding Search::FindingOf(const Candidate& best, const std::vector<Candidate>& all) const {
-  PatternFinding finding;
-  finding.kind = best.kind;
-  finding.view = best.view;
-  finding.board = best.board;
-  finding.image = best.image < 0 ? -1 : image_[static_cast<std::size_t>(best.image)];
-  finding.rms_px = TouchedRms_px(best);
-  finding.share_of_squares = best.fit.explained / best.squares;
-  finding.parameters = best.fit.rank;
-  finding.f_statistic = best.fit.f_statistic;
-  finding.p_value = best.fit.p_value;
-  finding.adjusted_p_value = best.adjusted_p;
-  if (!best.pattern) return finding;
-  for (std::size_t i = 0; i < best.pattern->names.size(); ++i) {
-    const auto row = static_cast<Eigen::Index>(i);
-    const double scale = best.pattern->shown_per_unit[i];
-    finding.values.push_back(
-        {best.pattern->names[i], scale * best.fit.values[row], scale * best.fit.sigmas[row]});
-  }
-  for (const Candidate& other : all) {
-    if (&other == &best || !other.pattern || other.adjusted_p >= options_.significance ||
-        other.fit.schwarz_gain < best.fit.schwarz_gain - kDecisiveGain)
-      continue;
-    PatternFinding named;
-    named.kind = other.kind;
-    named.view = other.view;
-    named.board = other.board;
-    Describe(original_, state_, named);
-    finding.alternatives.push_back(named.name);
-  }
-  return finding;
-}
-
-void Search::DropImage(int image) {
-  std::erase_if(data_.boards, [&](const BoardData& board) { return board.image == image; });
-  for (BoardData& board : data_.boards) board.image -= board.image > image;
-  data_.images.erase(data_.images.begin() + image);
-  state_.poses.erase(state_.poses.begin() + image);
-  image_.erase(image_.begin() + image);
-}
-
-bool Search::Adjust() {
-  if (data_.images.size() < kFewestImages) return false;
-  auto adjusted = AdjustBundle(data_, state_, OptionsOf(data_, state_));
-  if (adjusted) state_ = std::move(adjusted).value().state;
-  return adjusted.ok();
-}
-
-// Leaves the image out and adjusts the rest. When one of its boards alone is to blame, the others
-// come back. False when the rest cannot be adjusted.
-bool Search::LeaveOut(const Candidate& misfit, PatternFinding& finding) {
-  const CalibrationData with_image = data_;
-  const int image = misfit.image;
-  const TargetPose start = state_.poses[static_cast<std::size_t>(image)];
-  const std::vector<BoardData> boards = BoardsOfImage(data_, image);
-  DropImage(image);
-  if (!Adjust()) return false;
-  Prepare();
-  const double sigma0 = std::sqrt(system_->Squares() / std::max(1, system_->Degrees()));
-  const ImageMisfit found = ExamineImage(boards, data_.target, state_, start, sigma0);
-  if (found.culprit < 0) {
-    SetMisfit(PatternKind::kImageMisfit, -1, -1, finding);
-    return true;
-  }
-  const BoardData& culprit = boards[static_cast<std::size_t>(found.culprit)];
-  SetMisfit(found.labels.IsMislabelled() ? PatternKind::kMislabelled : PatternKind::kBoardMisfit,
-            culprit.view, culprit.geometry.board, finding);
-  finding.labels = found.labels;
-  finding.rms_px = found.labels.rms_as_labelled_px;
-  data_ = with_image;
-  std::erase_if(data_.boards, [&](const BoardData& board) {
-    return board.image == image && board.view == culprit.view;
-  });
-  state_.poses.insert(state_.poses.begin() + image, found.pose);
-  image_.insert(image_.begin() + image, finding.image);
-  if (!Adjust()) return false;
-  Prepare();
-  return true;
-}
 
 const SpatialTest* StrongestSpatial(const NoiseReport& noise) {
   const auto found = std::min_element(
@@ -263,7 +23,8 @@ const SpatialTest* StrongestSpatial(const NoiseReport& noise) {
 void AddUnknown(const CalibrationData& data, const ArrayState& state, const PatternOptions& options,
                 ResidualVerdict& verdict) {
   const SpatialTest* test = StrongestSpatial(verdict.noise);
-  if (!verdict.findings.empty() || !test || test->adjusted_p_value >= options.spatial_significance)
+  if (!verdict.findings.empty() || !test || verdict.noise.chi_square.sigma0 < kRounding ||
+      test->adjusted_p_value >= options.spatial_significance)
     return;
   PatternFinding finding;
   finding.view = test->view;
@@ -275,6 +36,14 @@ void AddUnknown(const CalibrationData& data, const ArrayState& state, const Patt
   finding.rms_px = summary.sigma_px * std::sqrt(finding.share_of_squares);
   Describe(data, state, finding);
   verdict.findings.push_back(finding);
+}
+
+// Whether the corners state their noise right; a twentieth is as good as a stated noise gets.
+std::string SizeText(const ChiSquareTest& test) {
+  if (test.p_value > 1e-3 || std::abs(test.sigma0 - 1) < 0.05)
+    return "They are as large as the corners' stated noise.";
+  return "They are " + FormatFixed(test.sigma0, 2) +
+         " times as large as the corners' stated noise.";
 }
 
 void Conclude(const PatternOptions& options, ResidualVerdict& verdict) {
@@ -300,19 +69,16 @@ void Conclude(const PatternOptions& options, ResidualVerdict& verdict) {
 ResidualVerdict JudgeResiduals(const CalibrationData& data, const ArrayState& state,
                                const PatternOptions& options) {
   ResidualVerdict verdict;
-  {
-    PatternSystem system(data, state);
-    system.TakeOut(AdjustedColumns(system, data, state));
-    verdict.degrees = system.Degrees();
-  }
+  PatternSearch search(data, state, options);
+  verdict.degrees = search.Degrees();
   verdict.noise = TestNoise(ResidualsOf(data, state), verdict.degrees, data.target.columns);
-  Search search(data, state, options);
   while (static_cast<int>(search.findings.size()) < options.most_findings && search.FindOne()) {
   }
   verdict.findings = std::move(search.findings);
   verdict.patterns_asked = search.asked;
   AddUnknown(data, state, options, verdict);
   Conclude(options, verdict);
+  verdict.size_text = SizeText(verdict.noise.chi_square);
   return verdict;
 }
 

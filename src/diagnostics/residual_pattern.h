@@ -59,6 +59,7 @@ struct ResidualVerdict {
   };
   Kind kind = Kind::kNoise;
   std::string text;                      // one or two sentences
+  std::string size_text;                 // a sentence: how large they are for the stated noise
   std::vector<PatternFinding> findings;  // the first explains most
   NoiseReport noise;                     // of the residuals as they came
   int degrees = 0;                       // of freedom of the residuals
@@ -67,8 +68,8 @@ struct ResidualVerdict {
 
 // A false alarm of the whole verdict is less likely than the sum of these.
 struct PatternOptions {
-  double significance = 0.01;             // of the patterns, Holm-adjusted
-  double spatial_significance = 0.005;    // of Moran's I, Holm-adjusted
+  double significance = 0.005;            // of the patterns, Holm-adjusted
+  double spatial_significance = 0.002;    // of Moran's I, Holm-adjusted
   double normality_significance = 0.002;  // of the distribution
   int most_findings = 5;
 };
