@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
+#include <utility>
 
 #include "base/numbers.h"
 #include "diagnostics/pattern_search.h"
@@ -80,6 +83,34 @@ ResidualVerdict JudgeResiduals(const CalibrationData& data, const ArrayState& st
   Conclude(options, verdict);
   verdict.size_text = SizeText(verdict.noise.chi_square);
   return verdict;
+}
+
+std::vector<PatternFinding> ExplainLeftOutBoards(const CalibrationData& all,
+                                                 const CalibrationData& used,
+                                                 const ArrayState& state) {
+  std::map<std::string, int> image_index;
+  for (std::size_t i = 0; i < used.images.size(); ++i)
+    image_index[used.images[i].image] = static_cast<int>(i);
+  std::set<std::pair<int, int>> kept;
+  for (const BoardData& board : used.boards) kept.emplace(board.image, board.view);
+  std::vector<PatternFinding> findings;
+  for (BoardData board : all.boards) {
+    const auto found = image_index.find(all.images[static_cast<std::size_t>(board.image)].image);
+    if (found == image_index.end() || kept.contains({found->second, board.view})) continue;
+    board.image = found->second;
+    PatternFinding finding;
+    finding.labels = ReadLabels(board, used.target, state);
+    finding.kind =
+        finding.labels.IsMislabelled() ? PatternKind::kMislabelled : PatternKind::kBoardMisfit;
+    finding.view = board.view;
+    finding.board = board.geometry.board;
+    finding.image = board.image;
+    finding.rms_px = finding.labels.rms_as_labelled_px;
+    finding.p_value = finding.adjusted_p_value = 0;
+    Describe(used, state, finding);
+    findings.push_back(finding);
+  }
+  return findings;
 }
 
 }  // namespace telestrain

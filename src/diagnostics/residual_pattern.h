@@ -85,4 +85,12 @@ struct PatternOptions {
 ResidualVerdict JudgeResiduals(const CalibrationData& data, const ArrayState& state,
                                const PatternOptions& options = {});
 
+// What is wrong with the boards that the calibration left out as a whole: those of `all`, the data
+// as collected from the observations, that `used` has no more although it has their image, whose
+// pose the other boards give. Each is kMislabelled or kBoardMisfit; views, boards and images are
+// indices into `used`.
+std::vector<PatternFinding> ExplainLeftOutBoards(const CalibrationData& all,
+                                                 const CalibrationData& used,
+                                                 const ArrayState& state);
+
 }  // namespace telestrain

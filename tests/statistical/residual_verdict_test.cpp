@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <functional>
 #include <iostream>
 #include <string>
@@ -32,7 +31,7 @@ FitOptions Numbered(int number) {
 }
 
 TEST(ResidualVerdict, CallsNoiseNoise) {
-  const int kCalibrations = std::getenv("NCAL") ? std::atoi(std::getenv("NCAL")) : 240;
+  constexpr int kCalibrations = 240;
   int patterns = 0, not_normal = 0, unknown = 0, spatial = 0, trend = 0, normality = 0;
   for (int i = 0; i < kCalibrations; ++i) {
     const ResidualVerdict verdict = FitArray(Numbered(i)).Judge();
@@ -79,36 +78,38 @@ void PlantDrift(FitOptions& options, const Eigen::Vector2d& drift_px) {
   };
 }
 
-TEST(ResidualVerdict, NamesWeakFaults) {
-  const std::vector<Planted> faults = {
-      {"k1 of one view, 5e-6 per mm2", PatternKind::kRadialK1, 2, "",
-       [](FitOptions& o) {
-         o.truth = [](SyntheticArray& array) {
-           array.lens_of_view.assign(4, array.lens);
-           array.lens_of_view[2].distortion[0] = 5e-6;
-         };
-       }},
-      {"drift of one view along u, 0.06 px", PatternKind::kViewDrift, 1,
-       "a drift over the images (view A2)",
-       [](FitOptions& o) {
-         PlantDrift(o, {0.06, 0});
-       }},
-      {"drift of one view along v, 1 px", PatternKind::kViewDrift, 1,
-       "a drift over the images (view A2)",
-       [](FitOptions& o) {
-         PlantDrift(o, {0, 1});
-       }},
-      {"one board shifted by 0.12 px", PatternKind::kBoardMisfit, 3, "",
-       [](FitOptions& o) {
-         o.corners = [](SyntheticArray& array) {
-           ShiftCorners(array, 4, 3,
-                        [](const Eigen::Vector2d&) { return Eigen::Vector2d(0.12, 0); });
-         };
-       }},
+void PlantK1(FitOptions& options) {
+  options.truth = [](SyntheticArray& array) {
+    array.lens_of_view.assign(4, array.lens);
+    array.lens_of_view[2].distortion[0] = 5e-6;
   };
+}
+
+void PlantShift(FitOptions& options) {
+  options.corners = [](SyntheticArray& array) {
+    ShiftCorners(array, 4, 3, [](const Eigen::Vector2d&) { return Eigen::Vector2d(0.12, 0); });
+  };
+}
+
+// An even drift along v is nearly taken up by the poses, along u only by half.
+std::vector<Planted> WeakFaults() {
+  const std::string drift = "a drift over the images (view A2)";
+  return {{"k1 of one view, 5e-6 per mm2", PatternKind::kRadialK1, 2, "", PlantK1},
+          {"drift of one view along u, 0.06 px", PatternKind::kViewDrift, 1, drift,
+           [](FitOptions& o) {
+             PlantDrift(o, {0.06, 0});
+           }},
+          {"drift of one view along v, 1 px", PatternKind::kViewDrift, 1, drift,
+           [](FitOptions& o) {
+             PlantDrift(o, {0, 1});
+           }},
+          {"one board shifted by 0.12 px", PatternKind::kBoardMisfit, 3, "", PlantShift}};
+}
+
+TEST(ResidualVerdict, NamesWeakFaults) {
   constexpr int kRepeats = 40;
-  for (const Planted& fault : faults) {
-    int named = 0, found = 0, others = 0;
+  for (const Planted& fault : WeakFaults()) {
+    int named = 0, found = 0;
     for (int i = 0; i < kRepeats; ++i) {
       FitOptions options;
       options.synthetic.seed = 900 + static_cast<std::uint64_t>(i);
@@ -116,10 +117,10 @@ TEST(ResidualVerdict, NamesWeakFaults) {
       const ResidualVerdict verdict = FitArray(options).Judge();
       found += verdict.kind == ResidualVerdict::Kind::kPattern;
       named += Names(verdict, fault.kind, fault.view, fault.name);
-      if (i == 0) std::cout << "  " << verdict.text << "\n";
     }
     std::cout << fault.what << ": a pattern in " << found << ", named in " << named << " of "
-              << kRepeats << " (" << others << " alternatives)\n";
+              << kRepeats << "\n";
+    // Strong enough to be named always but where noise makes two views or boards alike.
     EXPECT_GE(named, 0.8 * kRepeats) << fault.what;
   }
 }

@@ -158,6 +158,25 @@ TEST(JudgeResiduals, ABoardThatIsMislabelledByASquareIsNamed) {
   EXPECT_LT(found.labels.rms_px, 0.1 + 4 * 0.1);
 }
 
+TEST(ExplainLeftOutBoards, NamesABoardThatTheCalibrationRejected) {
+  testing_support::SyntheticOptions options;
+  options.noise_px = 0.05;
+  SyntheticArray array = testing_support::MakeSyntheticArray(options);
+  MoveLabels(array, 4 * 5 + 3);
+  const auto calibration = Calibrate(array.session, array.boards);
+  ASSERT_TRUE(calibration.ok());
+  ASSERT_EQ(calibration->data.boards.size(), 71u);
+  const CalibrationData all = *CollectCalibrationData(array.session, array.boards);
+  const auto findings = ExplainLeftOutBoards(all, calibration->data, calibration->bundle.state);
+  ASSERT_EQ(findings.size(), 1u);
+  EXPECT_EQ(findings[0].kind, PatternKind::kMislabelled);
+  EXPECT_EQ(findings[0].name, "labels that are wrong (view B2, image board_2b.png)");
+  EXPECT_EQ(findings[0].labels.columns, 1);
+  // And without it the residuals are noise.
+  EXPECT_EQ(JudgeResiduals(calibration->data, calibration->bundle.state).text,
+            "The residuals are noise.");
+}
+
 TEST(JudgeResiduals, ABoardThatIsNumberedFromTheOtherEndIsNamed) {
   FitOptions options;
   options.corners = [](SyntheticArray& array) {
