@@ -1,3 +1,4 @@
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <string>
@@ -21,61 +22,40 @@ struct Words {
   const char* remedy_of_one_view;
 };
 
-Words WordsOf(PatternKind kind) {
-  constexpr const char* kOwnLens =
-      "Give every view a lens of its own in the model, and look for a bent or stressed mirror in "
-      "this view's path.";
-  switch (kind) {
-    case PatternKind::kRadialK1:
-      return {"radial distortion k1", "Free k1 in the lens model.", kOwnLens};
-    case PatternKind::kRadialK2:
-      return {"radial distortion k2", "Free k2 in the lens model.", kOwnLens};
-    case PatternKind::kTangential:
-      return {"tangential distortion p1 p2", "Free p1 and p2 in the lens model.", kOwnLens};
-    case PatternKind::kAspect:
-      return {"unequal scales along u and v", "Free the aspect in the lens model.", kOwnLens};
-    case PatternKind::kTelecentricity:
-      return {"a scale that changes with depth", "Free the telecentricity in the lens model.",
-              kOwnLens};
-    case PatternKind::kMagnification:
-      return {"a magnification of its own", "", kOwnLens};
-    case PatternKind::kBoardFlatness:
-      return {"a board that is not flat",
-              "State its flatness in session.toml (flatness_um), so that its bow is adjusted, or "
-              "have it measured.",
-              ""};
-    case PatternKind::kBoardGrid:
-      return {"a board whose squares differ from the certificate",
-              "Check the certified pitch of this board, and that it is not stretched or sheared.",
-              ""};
-    case PatternKind::kBoardPlace:
-      return {"a board that lies elsewhere on the plate than certified",
-              "Check the certified distance, height and tilt of the boards, and that none came "
-              "loose.",
-              ""};
-    case PatternKind::kViewDrift:
-      return {
-          "a drift over the images", "",
-          "Let the instrument warm up, fasten this view's mirrors and record the target again."};
-    case PatternKind::kViewOffset:
-      return {"a constant offset", "",
-              "The calibration is not the optimum of these corners: calibrate with them again."};
-    case PatternKind::kMislabelled:
-      return {"labels that are wrong", "Number this board's corners anew or leave it out.", ""};
-    case PatternKind::kBoardMisfit:
-      return {"a board that does not fit the others",
-              "Look at this board's image (cover, blur, glare) and leave it out.", ""};
-    case PatternKind::kImageMisfit:
-      return {"boards that do not fit one pose of the target",
-              "The target or the stage moved during the exposure, or the corners are of different "
-              "images: leave this image out.",
-              ""};
-    case PatternKind::kUnknown:
-      break;
-  }
-  return {"a pattern of unknown cause",
-          "Look at the vector field of the residuals and at their regional means.", ""};
-}
+constexpr const char* kOwnLens =
+    "Give every view a lens of its own in the model, and look for a bent or stressed mirror in "
+    "this view's path.";
+
+// In the order of PatternKind.
+constexpr std::array<Words, 15> kWords{{
+    {"radial distortion k1", "Free k1 in the lens model.", kOwnLens},
+    {"radial distortion k2", "Free k2 in the lens model.", kOwnLens},
+    {"tangential distortion p1 p2", "Free p1 and p2 in the lens model.", kOwnLens},
+    {"unequal scales along u and v", "Free the aspect in the lens model.", kOwnLens},
+    {"a scale that changes with depth", "Free the telecentricity in the lens model.", kOwnLens},
+    {"a magnification of its own", "", kOwnLens},
+    {"a board that is not flat",
+     "State its flatness in session.toml (flatness_um), so that its bow is adjusted, or have it "
+     "measured.",
+     ""},
+    {"a board whose squares differ from the certificate",
+     "Check the certified pitch of this board, and that it is not stretched or sheared.", ""},
+    {"a board that lies elsewhere on the plate than certified",
+     "Check the certified distance, height and tilt of the boards, and that none came loose.", ""},
+    {"a drift over the images", "",
+     "Let the instrument warm up, fasten this view's mirrors and record the target again."},
+    {"a constant offset", "",
+     "The calibration is not the optimum of these corners: calibrate with them again."},
+    {"labels that are wrong", "Number this board's corners anew or leave it out.", ""},
+    {"a board that does not fit the others",
+     "Look at this board's image (cover, blur, glare) and leave it out.", ""},
+    {"boards that do not fit one pose of the target",
+     "The target or the stage moved during the exposure, or the corners are of different images: "
+     "leave this image out.",
+     ""},
+    {"a pattern of unknown cause",
+     "Look at the vector field of the residuals and at their regional means.", ""},
+}};
 
 std::string ViewName(const ArrayState& state, int view) {
   const std::string& name = state.array.views[static_cast<std::size_t>(view)].name;
@@ -106,7 +86,7 @@ std::string SizeOf(const PatternFinding& f) {
 }  // namespace
 
 void Describe(const CalibrationData& data, const ArrayState& state, PatternFinding& f) {
-  const Words words = WordsOf(f.kind);
+  const Words& words = kWords.at(static_cast<std::size_t>(f.kind));
   const std::string where = WhereOf(data, state, f);
   f.name = words.name + (where.empty() ? "" : " (" + where + ")");
   f.remedy = f.view >= 0 && *words.remedy_of_one_view ? words.remedy_of_one_view : words.remedy;
