@@ -46,7 +46,7 @@ constexpr std::array<Words, 15> kWords{{
      "Let the instrument warm up, fasten this view's mirrors and record the target again."},
     {"a constant offset", "",
      "The calibration is not the optimum of these corners: calibrate with them again."},
-    {"labels that are wrong", "Number this board's corners anew or leave it out.", ""},
+    {"a mislabelled board", "Number this board's corners anew or leave it out.", ""},
     {"a board that does not fit the others",
      "Look at this board's image (cover, blur, glare) and leave it out.", ""},
     {"boards that do not fit one pose of the target",

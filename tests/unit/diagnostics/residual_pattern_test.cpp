@@ -131,6 +131,15 @@ TEST(JudgeResiduals, ADriftingViewIsNamedWithItsDrift) {
   ExpectValue(found, 0.1);
 }
 
+TEST(JudgeResiduals, AViewThatWasKnockedLooksLikeADrift) {
+  FitOptions options;
+  options.corners = [](SyntheticArray& array) {
+    for (std::size_t image = 9; image < 18; ++image)
+      ShiftCorners(array, image, 2, [](const Eigen::Vector2d&) { return Eigen::Vector2d(0.1, 0); });
+  };
+  EXPECT_EQ(MustFind(Judged(options), PatternKind::kViewDrift).view, 2);
+}
+
 // Every corner of a board has the label of its neighbour; those of the last column are gone.
 void MoveLabels(SyntheticArray& array, std::size_t board) {
   auto& corners = array.boards[board].corners;
@@ -170,7 +179,7 @@ TEST(ExplainLeftOutBoards, NamesABoardThatTheCalibrationRejected) {
   const auto findings = ExplainLeftOutBoards(all, calibration->data, calibration->bundle.state);
   ASSERT_EQ(findings.size(), 1u);
   EXPECT_EQ(findings[0].kind, PatternKind::kMislabelled);
-  EXPECT_EQ(findings[0].name, "labels that are wrong (view B2, image board_2b.png)");
+  EXPECT_EQ(findings[0].name, "a mislabelled board (view B2, image board_2b.png)");
   EXPECT_EQ(findings[0].labels.columns, 1);
   // And without it the residuals are noise.
   EXPECT_EQ(JudgeResiduals(calibration->data, calibration->bundle.state).text,

@@ -1,5 +1,6 @@
 // Our residual statistics against mrcal's own Python tools on a pinhole problem that mrcal solved.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <cstdlib>
@@ -22,7 +23,7 @@ const Json& Reference() {
   static const Json reference = [] {
     if (std::system("/usr/bin/python3 -c 'import mrcal' >/dev/null 2>&1") != 0) return Json();
     const auto path = std::filesystem::path(testing::TempDir()) /
-                      ("mrcal_residuals_" + std::to_string(std::rand()) + ".json");
+                      ("mrcal_residuals_" + std::to_string(::getpid()) + ".json");
     const std::string script =
         TELESTRAIN_SOURCE_DIR "/tests/unit/diagnostics/residual_mrcal_reference.py";
     const std::string command =
