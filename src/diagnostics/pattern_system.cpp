@@ -16,7 +16,7 @@ using Layout = PatternLayout;
 constexpr double kInvisible = 1e-9;
 constexpr double kSingular = 1e-11;  // among the parameters of the calibration
 // Of the whitened residuals: below this variance they are rounding and not noise.
-constexpr double kSmallestVariance = 1e-4;
+constexpr double kSmallestVariance = 1e-6;
 
 // Pseudo-inverse of a positive semidefinite matrix whose elements are scaled by `diagonal`;
 // directions below `tolerance` count as zero.

@@ -13,7 +13,7 @@ namespace telestrain {
 namespace {
 
 // Whitened residuals below this are rounding and have no distribution to speak of.
-constexpr double kRounding = 0.01;
+constexpr double kRounding = 1e-3;
 
 const SpatialTest* StrongestSpatial(const NoiseReport& noise) {
   const auto found = std::min_element(
