@@ -139,7 +139,7 @@ double LeastSpread_mm(const BoardData& board) {
 }
 
 PlateLattice LatticeOver(const CalibrationData& data) {
-  constexpr double kSpacingsPerSpread = 1.4;
+  constexpr double kSpacingsPerSpread = 1.7;
   Eigen::Vector2d low = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());
   Eigen::Vector2d high = -low;
   double spread_mm = std::numeric_limits<double>::infinity(), height_mm = 0;

@@ -6,6 +6,7 @@ extern "C" {
 }
 
 #include <cmath>
+#include <limits>
 
 #include "base/check.h"
 #include "geometry/rotation.h"
@@ -40,7 +41,10 @@ class Arrays {
  private:
   void AddCamera(const MrcalProblem& problem, const MrcalCamera& camera);
   void AddSighting(const MrcalSighting& sighting);
+  void AddPin(const MrcalPin& pin, double unit_mm);
   std::size_t IntrinsicsSize() const;
+  int LensCount() const { return static_cast<int>(intrinsics_.size() / IntrinsicsSize()); }
+  int PinCount() const { return static_cast<int>(pins_.size()); }
   int CameraCount() const { return static_cast<int>(cameras_.size()); }
   int FrameCount() const { return static_cast<int>(frames_.size()); }
   int SightingCount() const { return static_cast<int>(sightings_.size()); }
@@ -54,7 +58,8 @@ class Arrays {
   std::vector<double> intrinsics_, residuals_, state_;
   std::vector<mrcal_pose_t> cameras_, frames_;
   std::vector<mrcal_observation_board_t> sightings_;
-  std::vector<mrcal_point3_t> nodes_;
+  std::vector<mrcal_point3_t> nodes_, points_;
+  std::vector<mrcal_observation_point_t> pins_;
   std::vector<int> sensors_;
 };
 
@@ -73,6 +78,7 @@ Arrays::Arrays(const MrcalProblem& problem)
   TELESTRAIN_CHECK(mrcal_lensmodel_from_name(&model_, model), "mrcal knows its own models");
   selections_.do_optimize_intrinsics_distortions = problem.free_distortion;
   selections_.do_optimize_extrinsics = selections_.do_optimize_frames = true;
+  constants_.point_max_range = std::numeric_limits<double>::max();
   warp_.x2 = problem.bow_x_mm / problem.unit_mm;
   warp_.y2 = problem.bow_y_mm / problem.unit_mm;
   for (const MrcalCamera& camera : problem.cameras) AddCamera(problem, camera);
@@ -80,12 +86,13 @@ Arrays::Arrays(const MrcalProblem& problem)
     frames_.push_back(
         PoseOfMrcal(frame.array_from_target, frame.origin_in_array_mm / problem.unit_mm));
   for (const MrcalSighting& sighting : problem.sightings) AddSighting(sighting);
+  for (const MrcalPin& pin : problem.pins) AddPin(pin, problem.unit_mm);
   residuals_.resize(static_cast<std::size_t>(
-      mrcal_num_measurements(SightingCount(), 0, columns_, rows_, CameraCount(), CameraCount(),
-                             FrameCount(), 0, 0, selections_, &model_)));
-  state_.resize(static_cast<std::size_t>(mrcal_num_states(CameraCount(), CameraCount(),
-                                                          FrameCount(), 0, 0, SightingCount(),
-                                                          selections_, &model_)));
+      mrcal_num_measurements(SightingCount(), PinCount(), columns_, rows_, LensCount(),
+                             CameraCount(), FrameCount(), PinCount(), PinCount(), selections_,
+                             &model_)));
+  state_.resize(static_cast<std::size_t>(mrcal_num_states(LensCount(), CameraCount(), FrameCount(), PinCount(), PinCount(),
+                       SightingCount(), selections_, &model_)));
 }
 
 std::size_t Arrays::IntrinsicsSize() const {
@@ -117,12 +124,34 @@ void Arrays::AddSighting(const MrcalSighting& sighting) {
   }
 }
 
+// A lens of its own, blind in the coordinate that is not pinned.
+void Arrays::AddPin(const MrcalPin& pin, double unit_mm) {
+  const std::size_t lens = IntrinsicsSize() * static_cast<std::size_t>(pin.camera);
+  const std::vector<double> core(intrinsics_.begin() + lens, intrinsics_.begin() + lens + kCoreSize);
+  mrcal_observation_point_t seen{};
+  seen.icam.intrinsics = LensCount();
+  seen.icam.extrinsics = pin.camera;
+  seen.i_point = PinCount();
+  seen.px.x = core[2];
+  seen.px.y = core[3];
+  seen.px.z = 1;
+  intrinsics_.insert(intrinsics_.end(), {pin.pins_u ? core[0] : 0, pin.pins_v ? core[1] : 0,
+                                         core[2], core[3]});
+  intrinsics_.resize(intrinsics_.size() + IntrinsicsSize() - kCoreSize);
+  sensors_.insert(sensors_.end(), {1, 1});
+  mrcal_point3_t point{};
+  for (int i = 0; i < 3; ++i) point.xyz[i] = pin.point_in_reference_mm(i) / unit_mm;
+  points_.push_back(point);
+  pins_.push_back(seen);
+}
+
 bool Arrays::Evaluate() {
   return mrcal_optimizer_callback(
       state_.data(), static_cast<int>(state_.size() * sizeof(double)), residuals_.data(),
       static_cast<int>(residuals_.size() * sizeof(double)), nullptr, intrinsics_.data(),
-      cameras_.data(), frames_.data(), nullptr, &warp_, CameraCount(), CameraCount(), FrameCount(),
-      0, 0, sightings_.data(), nullptr, SightingCount(), 0, nodes_.data(), &model_,
+      cameras_.data(), frames_.data(), points_.data(), &warp_, LensCount(), CameraCount(),
+      FrameCount(), PinCount(), PinCount(), sightings_.data(), pins_.data(), SightingCount(),
+      PinCount(), nodes_.data(), &model_,
       sensors_.data(), selections_, &constants_, spacing_, columns_, rows_, false);
 }
 
@@ -130,8 +159,9 @@ bool Arrays::Optimise() {
   const mrcal_stats_t stats = mrcal_optimize(
       state_.data(), static_cast<int>(state_.size() * sizeof(double)), residuals_.data(),
       static_cast<int>(residuals_.size() * sizeof(double)), intrinsics_.data(), cameras_.data(),
-      frames_.data(), nullptr, &warp_, CameraCount(), CameraCount(), FrameCount(), 0, 0,
-      sightings_.data(), nullptr, SightingCount(), 0, nodes_.data(), &model_, sensors_.data(),
+      frames_.data(), points_.data(), &warp_, LensCount(), CameraCount(), FrameCount(), PinCount(),
+      PinCount(), sightings_.data(), pins_.data(), SightingCount(), PinCount(), nodes_.data(),
+      &model_, sensors_.data(),
       selections_, &constants_, spacing_, columns_, rows_, false, false);
   return stats.rms_reproj_error__pixels >= 0;  // -1 when it failed
 }

@@ -30,6 +30,15 @@ struct MrcalSighting {
   Eigen::VectorXd weight_1_px;  // of both coordinates of each node; 0: not seen
 };
 
+// Holds the reference frame, which the corners leave free, without a price: a fixed point that a
+// camera must see at one or both coordinates of its principal point. Six scalars that every optimum
+// can fulfil exactly, wherever the frame is put, choose the frame and change nothing else.
+struct MrcalPin {
+  int camera = 0;
+  Eigen::Vector3d point_in_reference_mm = Eigen::Vector3d::Zero();
+  bool pins_u = true, pins_v = true;
+};
+
 struct MrcalProblem {
   int columns = 0, rows = 0;
   double spacing_mm = 0;
@@ -43,6 +52,7 @@ struct MrcalProblem {
   std::vector<MrcalCamera> cameras;
   std::vector<TargetPose> frames;  // reference from grid; the grid's first node is its origin
   std::vector<MrcalSighting> sightings;  // ordered by frame
+  std::vector<MrcalPin> pins;            // none: the frame stays free
 };
 
 // mrcal's residuals, weight (predicted - measured), at the problem's own cameras and frames: a 2xN
@@ -50,8 +60,7 @@ struct MrcalProblem {
 // mrcal refuses the problem.
 Result<std::vector<Eigen::Matrix2Xd>> MrcalResiduals(const MrcalProblem& problem);
 
-// Moves cameras and frames (all of them: the common frame is free, so compare only what does not
-// depend on it) to mrcal's optimum. mrcal stops when its step is short and does not say after how
+// Moves all cameras and frames to mrcal's optimum. mrcal stops when its step is short and does not say after how
 // many, so it runs again from where it stopped until the sum of squares stays as it is.
 struct MrcalOutcome {
   double rms = 0;  // of the weighted residuals of the nodes seen, over scalars

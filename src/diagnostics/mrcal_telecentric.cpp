@@ -66,6 +66,34 @@ MrcalProblem ProblemOfBoard(const CalibrationData& data, const ArrayState& state
   return problem;
 }
 
+// Camera 0 sees two points behind each other at its principal point, and a third beside them at its
+// height; the last camera coordinate that moves with the depth of camera 0 is the sixth number. None
+// of them depends on a magnification.
+std::vector<MrcalPin> PinsOf(const std::vector<MrcalCamera>& cameras) {
+  constexpr double kReach_mm = 10;  // about a field
+  const MrcalCamera& first = cameras.front();
+  const Eigen::Matrix3d axes = first.camera_from_reference.transpose();
+  const Eigen::Vector3d depth = axes.col(2);
+  const Eigen::Vector3d middle =
+      -axes.leftCols<2>() * first.origin_in_camera_mm.head<2>();
+  MrcalPin last;
+  double steepest = 0;
+  for (std::size_t c = 1; c < cameras.size(); ++c) {
+    for (const int row : {0, 1}) {
+      const Eigen::RowVector3d along = cameras[c].camera_from_reference.row(row);
+      const double slope = along.dot(depth);
+      if (std::abs(slope) <= std::abs(steepest)) continue;
+      steepest = slope;
+      const double value = along.dot(middle) + cameras[c].origin_in_camera_mm(row);
+      last = {static_cast<int>(c), middle - value / slope * depth, row == 0, row == 1};
+    }
+  }
+  return {{0, middle, true, true},
+          {0, middle + kReach_mm * depth, true, true},
+          {0, middle + kReach_mm * axes.col(0), false, true},
+          last};
+}
+
 }  // namespace
 
 std::vector<MrcalCamera> MrcalCamerasOf(const ArrayCalibration& array) {
@@ -108,6 +136,7 @@ Result<LatticeProblem> LatticeProblemOf(const CalibrationData& data, const Array
   for (TelecentricLens& lens : undistorted.lenses)
     lens = {lens.magnification_px_per_mm, lens.center_px};
   made.problem.cameras = MrcalCamerasOf(undistorted);
+  made.problem.pins = PinsOf(made.problem.cameras);
   TargetPose first_node;
   first_node.origin_in_array_mm = made.lattice.first_node_in_target_mm;
   for (const TargetPose& pose : start.poses)
