@@ -5,6 +5,7 @@ extern "C" {
 #include <mrcal/mrcal.h>
 }
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <limits>
 
@@ -200,6 +201,21 @@ Eigen::Index NodesSeen(const MrcalProblem& problem) {
 
 }  // namespace
 
+TargetPose Compose(const TargetPose& c_from_b, const TargetPose& b_from_a) {
+  return {c_from_b.array_from_target * b_from_a.array_from_target,
+          c_from_b.array_from_target * b_from_a.origin_in_array_mm + c_from_b.origin_in_array_mm};
+}
+
+TargetPose GridInTarget(const BoardGeometry& geometry, double scale) {
+  const Eigen::Vector3d& x = geometry.x_in_target;
+  const Eigen::Vector3d& y = geometry.y_in_target;
+  TargetPose grid;
+  grid.array_from_target << x, y, x.cross(y);
+  grid.origin_in_array_mm = geometry.center_in_target_mm -
+                            scale * (geometry.half_width_mm * x + geometry.half_height_mm * y);
+  return grid;
+}
+
 Result<std::vector<Eigen::Matrix2Xd>> MrcalResiduals(const MrcalProblem& problem) {
   CheckShapes(problem);
   Arrays arrays(problem);
@@ -211,6 +227,32 @@ Result<std::vector<Eigen::Matrix2Xd>> MrcalResiduals(const MrcalProblem& problem
     next += 2 * sighting.pixels.cols();
   }
   return residuals;
+}
+
+// What is pinned has the value zero, which no magnification and no depth changes.
+std::vector<MrcalPin> PinsAt(const std::vector<MrcalCamera>& cameras) {
+  constexpr double kReach_mm = 10;  // about a field
+  const MrcalCamera& first = cameras.front();
+  const Eigen::Matrix3d axes = first.camera_from_reference.transpose();
+  const Eigen::Vector3d depth = axes.col(2);
+  const Eigen::Vector3d middle =
+      -axes.leftCols<2>() * first.origin_in_camera_mm.head<2>();
+  MrcalPin last;
+  double steepest = 0;
+  for (std::size_t c = 1; c < cameras.size(); ++c) {
+    for (const int row : {0, 1}) {
+      const Eigen::RowVector3d along = cameras[c].camera_from_reference.row(row);
+      const double slope = along.dot(depth);
+      if (std::abs(slope) <= std::abs(steepest)) continue;
+      steepest = slope;
+      const double value = along.dot(middle) + cameras[c].origin_in_camera_mm(row);
+      last = {static_cast<int>(c), middle - value / slope * depth, row == 0, row == 1};
+    }
+  }
+  return {{0, middle, true, true},
+          {0, middle + kReach_mm * depth, true, true},
+          {0, middle + kReach_mm * axes.col(0), false, true},
+          last};
 }
 
 Result<MrcalOutcome> SolveWithMrcal(MrcalProblem& problem) {

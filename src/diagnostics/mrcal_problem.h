@@ -55,6 +55,15 @@ struct MrcalProblem {
   std::vector<MrcalPin> pins;            // none: the frame stays free
 };
 
+TargetPose Compose(const TargetPose& c_from_b, const TargetPose& b_from_a);
+// Target from the grid of a sub-board whose pitch is `scale` times the nominal one.
+TargetPose GridInTarget(const BoardGeometry& geometry, double scale = 1);
+
+// Pins that these cameras fulfil: camera 0 has two points behind each other on its axis and a third
+// beside them at its height, and the coordinate of another camera that moves most with the depth
+// of camera 0 holds that depth. Two cameras at least, from different directions.
+std::vector<MrcalPin> PinsAt(const std::vector<MrcalCamera>& cameras);
+
 // mrcal's residuals, weight (predicted - measured), at the problem's own cameras and frames: a 2xN
 // block per sighting, column per node; zero where it is not seen. Fails (kEstimationFailed) when
 // mrcal refuses the problem.

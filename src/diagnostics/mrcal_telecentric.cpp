@@ -20,22 +20,6 @@ MrcalCamera CameraAt(const TelecentricLens& lens, const TelecentricView& view) {
   return camera;
 }
 
-// Where the grid of a sub-board lies in the target: its first corner and its axes.
-TargetPose GridInTarget(const BoardGeometry& geometry, double scale) {
-  const Eigen::Vector3d& x = geometry.x_in_target;
-  const Eigen::Vector3d& y = geometry.y_in_target;
-  TargetPose grid;
-  grid.array_from_target << x, y, x.cross(y);
-  grid.origin_in_array_mm = geometry.center_in_target_mm -
-                            scale * (geometry.half_width_mm * x + geometry.half_height_mm * y);
-  return grid;
-}
-
-TargetPose Compose(const TargetPose& c_from_b, const TargetPose& b_from_a) {
-  return {c_from_b.array_from_target * b_from_a.array_from_target,
-          c_from_b.array_from_target * b_from_a.origin_in_array_mm + c_from_b.origin_in_array_mm};
-}
-
 MrcalSighting SightingOf(const BoardData& board, int nodes) {
   MrcalSighting sighting{board.view, board.image, Eigen::Matrix2Xd::Zero(2, nodes),
                          Eigen::VectorXd::Zero(nodes)};
@@ -64,34 +48,6 @@ MrcalProblem ProblemOfBoard(const CalibrationData& data, const ArrayState& state
   problem.unit_mm = kMrcalUnit_mm;
   for (const TargetPose& pose : state.poses) problem.frames.push_back(Compose(pose, grid));
   return problem;
-}
-
-// Camera 0 sees two points behind each other at its principal point, and a third beside them at its
-// height; the last camera coordinate that moves with the depth of camera 0 is the sixth number. None
-// of them depends on a magnification.
-std::vector<MrcalPin> PinsOf(const std::vector<MrcalCamera>& cameras) {
-  constexpr double kReach_mm = 10;  // about a field
-  const MrcalCamera& first = cameras.front();
-  const Eigen::Matrix3d axes = first.camera_from_reference.transpose();
-  const Eigen::Vector3d depth = axes.col(2);
-  const Eigen::Vector3d middle =
-      -axes.leftCols<2>() * first.origin_in_camera_mm.head<2>();
-  MrcalPin last;
-  double steepest = 0;
-  for (std::size_t c = 1; c < cameras.size(); ++c) {
-    for (const int row : {0, 1}) {
-      const Eigen::RowVector3d along = cameras[c].camera_from_reference.row(row);
-      const double slope = along.dot(depth);
-      if (std::abs(slope) <= std::abs(steepest)) continue;
-      steepest = slope;
-      const double value = along.dot(middle) + cameras[c].origin_in_camera_mm(row);
-      last = {static_cast<int>(c), middle - value / slope * depth, row == 0, row == 1};
-    }
-  }
-  return {{0, middle, true, true},
-          {0, middle + kReach_mm * depth, true, true},
-          {0, middle + kReach_mm * axes.col(0), false, true},
-          last};
 }
 
 }  // namespace
@@ -136,7 +92,7 @@ Result<LatticeProblem> LatticeProblemOf(const CalibrationData& data, const Array
   for (TelecentricLens& lens : undistorted.lenses)
     lens = {lens.magnification_px_per_mm, lens.center_px};
   made.problem.cameras = MrcalCamerasOf(undistorted);
-  made.problem.pins = PinsOf(made.problem.cameras);
+  made.problem.pins = PinsAt(made.problem.cameras);
   TargetPose first_node;
   first_node.origin_in_array_mm = made.lattice.first_node_in_target_mm;
   for (const TargetPose& pose : start.poses)

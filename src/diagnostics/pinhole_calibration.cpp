@@ -141,6 +141,14 @@ Eigen::Vector3d MiddleOfCorners_mm(const CalibrationData& data, const ArrayState
 
 }  // namespace
 
+void CountErrors(const CalibrationData& data, PinholeCalibration& calibration) {
+  calibration.all = Statistics(data, calibration.errors_px, -1);
+  calibration.of_view.clear();
+  for (std::size_t v = 0; v < calibration.views.size(); ++v)
+    calibration.of_view.push_back(
+        Statistics(data, calibration.errors_px, static_cast<int>(v)));
+}
+
 std::vector<PinholeView> PinholeViewsAt(const Session& session, const CalibrationData& data,
                                         const ArrayState& telecentric,
                                         const PinholeOptions& options) {
@@ -191,9 +199,7 @@ Result<PinholeCalibration> CalibratePinhole(const Session& session, const Calibr
   found.hit_iteration_limit = summary.termination_type == ceres::NO_CONVERGENCE;
   found.termination = summary.message;
   TELESTRAIN_ASSIGN_OR_RETURN(found.errors_px, Errors_px(data, found));
-  found.all = Statistics(data, found.errors_px, -1);
-  for (std::size_t v = 0; v < found.views.size(); ++v)
-    found.of_view.push_back(Statistics(data, found.errors_px, static_cast<int>(v)));
+  CountErrors(data, found);
   return found;
 }
 

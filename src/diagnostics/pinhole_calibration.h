@@ -39,6 +39,9 @@ struct PinholeCalibration {
   std::string termination;  // the solver's own words
 };
 
+// Fills `all` and `of_view` from errors_px.
+void CountErrors(const CalibrationData& data, PinholeCalibration& calibration);
+
 // Global bundle adjustment over the views and all poses of the target, whose boards lie on one
 // plate. Starts at the telecentric solution seen from D; the principal point is fixed; a view
 // behind an odd number of mirrors is flipped (PinholeView). Held fixed: the pose seen by the most

@@ -8,6 +8,8 @@
 namespace telestrain {
 namespace {
 
+constexpr std::array<int, 5> kPower{2, 4, 1, 1, 6};  // of a length in k1, k2, p1, p2, k3
+
 // Brown's formula is the same for both kinds of lens, in mm of the plane at the working distance.
 TelecentricLens PlaneLens(const PinholeView& view) {
   TelecentricLens lens;
@@ -64,11 +66,15 @@ bool AddReprojection(const PinholeView& view, const Eigen::Vector2d& plane_mm,
 }  // namespace
 
 std::array<double, 5> PinholeView::DistortionOfOpenCv() const {
-  constexpr std::array<int, 5> kPower{2, 4, 1, 1, 6};
   std::array<double, 5> of_slopes{};
   for (std::size_t i = 0; i < of_slopes.size(); ++i)
     of_slopes[i] = distortion[i] * std::pow(working_distance_mm, kPower[i]);
   return of_slopes;
+}
+
+void PinholeView::SetDistortionOfOpenCv(const std::array<double, 5>& of_slopes) {
+  for (std::size_t i = 0; i < of_slopes.size(); ++i)
+    distortion[i] = of_slopes[i] / std::pow(working_distance_mm, kPower[i]);
 }
 
 std::optional<Eigen::Vector2d> PinholeView::Project(const Eigen::Vector3d& point) const {

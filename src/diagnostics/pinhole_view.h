@@ -36,6 +36,7 @@ struct PinholeView {
   double FocalLength_px() const { return scale_px_per_mm * working_distance_mm; }
   // The coefficients as OpenCV states them: without unit, of (X / Z, Y / Z).
   std::array<double, 5> DistortionOfOpenCv() const;
+  void SetDistortionOfOpenCv(const std::array<double, 5>& of_slopes);
   // Nothing for a point behind the camera.
   std::optional<Eigen::Vector2d> Project(const Eigen::Vector3d& point_in_array_mm) const;
   // (x, y) of a pixel: the distortion and the flip are taken off.
