@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstdio>
 
+#include "diagnostics/pinhole_comparison.h"
 #include "geometry/rotation.h"
 #include "unit/diagnostics/pinhole_array.h"
 
@@ -13,7 +14,6 @@ namespace {
 
 using testing_support::MakeCase;
 using testing_support::PinholeCase;
-using testing_support::RmsError_um;
 using testing_support::SyntheticOptions;
 
 double Now() {
@@ -23,29 +23,19 @@ double Now() {
 TEST(SpikeP, A) {
   SyntheticOptions so;
   so.poses = 18;
-  for (bool mirrored : {false, true}) {
-    so.mirrored = mirrored;
     PinholeCase made = MakeCase(so);
     auto crosses = MakeRulers(made.array, 8);
-    std::printf("tele rms %.6f\n", made.telecentric_rms_px);
-    for (bool distorted : {false, true})
-      for (double D : {100., 300., 1000., 3000., 1e4, 1e5}) {
-        PinholeOptions o;
-        o.working_distance_mm = D;
-        o.free_distortion = distorted;
-        double t0 = Now();
-        auto m = CalibratePinholeWithMrcal(made.array.session, made.data, made.telecentric, o);
-        double t1 = Now();
-        auto c = CalibratePinhole(made.array.session, made.data, made.telecentric, o);
-        double t2 = Now();
-        if (!m.ok()) { std::printf("D %g FAIL %s\n", D, m.error().message.c_str()); continue; }
-        std::printf("D %g dist %d mrcal rms %.9f (%d runs, lim %d, %.3f s) ruler %.4f um; ceres rms %.9f (%d it, %.3f s) ruler %.4f\n", D,
-                    distorted, m->all.rms_px, m->iterations, m->hit_iteration_limit, t1 - t0,
-                    RmsError_um(MeasureRulerWithPinhole(made.array.session, m->views, crosses)),
-                    c->all.rms_px, c->iterations, t2 - t1,
-                    RmsError_um(MeasureRulerWithPinhole(made.array.session, c->views, crosses)));
-      }
-  }
+    double t0=Now(); double c0=double(clock());
+    auto found = ComparePinhole(made.array.session, made.data, made.telecentric, crosses);
+    std::printf("%.3f s cpu %.3f tele %.5f\n", Now()-t0,(double(clock())-c0)/CLOCKS_PER_SEC, found->telecentric.rms_px);
+    for (auto& arm : found->arms)
+      std::printf("%s D %g rms %.5f ruler %.3f max %.3f runs %d conv %d starts %d wrong %d\n", arm.model.c_str(), arm.working_distance_mm, arm.reprojection.rms_px, arm.ruler_rmse_um, arm.ruler_max_um, arm.runs, arm.converged, arm.starts, arm.wrong_minima);
+    for (double turn : {3.,10.,20.,40.}) for (double D:{100.,1000., 1e5}) {
+      PinholeComparisonOptions o; o.distances_mm={D}; o.distorted_distances_mm={}; o.seeded_distance_mm=D; o.seeds=10; o.seed_turn_deg=turn;
+    c0=double(clock());
+    auto f = ComparePinhole(made.array.session, made.data, made.telecentric, crosses, o);
+    std::printf("turn %g D %g wrong %d of %d cpu %.3f\n",turn,D,f->arms[0].wrong_minima,f->arms[0].starts,(double(clock())-c0)/CLOCKS_PER_SEC);
+    }
 }
 
 }  // namespace

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "diagnostics/pinhole_calibration.h"
+#include "target/board_observation.h"
+
+namespace telestrain {
+
+// The paper's section 3 on the session's own corners and rulers: what is lost by describing a
+// telecentric array with pinhole cameras? A pinhole with a free focal length has no finite optimum
+// on such corners, so the working distance D is stated and the core locked at m D, for a range
+// of D. libmrcal solves every arm (pinhole_mrcal.h).
+
+struct PinholeComparisonOptions {
+  std::vector<double> distances_mm = {100, 300, 1000, 3000, 1e4, 1e5};
+  // With five coefficients a view.
+  std::vector<double> distorted_distances_mm = {1000};
+  // Wrong minima: our own adjustment, which minimises the same function at a fifth of the cost, of
+  // the arm locked at this distance starts from `seeds` places, each view turned by up to
+  // seed_turn_deg about every axis, each pose too, and moved by up to seed_shift_mm.
+  double seeded_distance_mm = 1000;
+  int seeds = 3;
+  double seed_turn_deg = 10;
+  double seed_shift_mm = 1;
+};
+
+// A seed ends in a wrong minimum when its RMS exceeds the best one this many times.
+inline constexpr double kWrongMinimum = 1.2;
+inline constexpr double kErrorBin_px = 0.02;  // mrcal's
+
+struct PinholeArm {
+  std::string model;               // "pinhole" or "pinhole, five coefficients"
+  double working_distance_mm = 0;  // D
+  ReprojectionStatistics reprojection;
+  std::vector<int> histogram;  // corners by the norm of their error, bins of kErrorBin_px from 0
+  std::vector<double> ruler_error_um;  // of the images that could be measured
+  double ruler_rmse_um = 0, ruler_max_um = 0;
+  int runs = 0;  // of mrcal until nothing moved
+  bool converged = false;
+  int starts = 0, wrong_minima = 0;  // seeds and how many of them; 0 for an arm without seeds
+};
+
+struct PinholeComparison {
+  ReprojectionStatistics telecentric;  // the calibration's own, with all its terms
+  std::vector<int> telecentric_histogram;
+  std::vector<PinholeArm> arms;  // locked ones in the order of their distances, then distorted ones
+
+  // Where a pinhole is as good: the smallest of the distances at which a locked one without
+  // coefficients has no more than 1.01 times the telecentric RMS. It has one magnification per view
+  // more to spend and no plate to keep, and parallel rays are its limit: far enough away it is the
+  // telecentric model. Nothing when no distance is.
+  std::optional<double> AsGoodFrom_mm() const;
+};
+
+// Fails like CalibratePinholeWithMrcal. The same bytes on every run.
+Result<PinholeComparison> ComparePinhole(const Session& session, const CalibrationData& data,
+                                         const ArrayState& state,
+                                         const std::vector<CrossObservation>& crosses,
+                                         const PinholeComparisonOptions& options = {});
+
+}  // namespace telestrain
