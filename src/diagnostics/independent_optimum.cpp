@@ -49,9 +49,9 @@ double Rms(const Residuals& residuals) {
 double MaxMagnificationDifference(const ArrayCalibration& a, const ArrayCalibration& b) {
   double largest = 0;
   for (std::size_t v = 0; v < a.views.size(); ++v)
-    largest = std::max(largest, std::abs(a.LensOf(v).magnification_px_per_mm /
-                                             b.LensOf(v).magnification_px_per_mm -
-                                         1));
+    largest = std::max(
+        largest,
+        std::abs(a.LensOf(v).magnification_px_per_mm / b.LensOf(v).magnification_px_per_mm - 1));
   return largest;
 }
 
@@ -123,15 +123,13 @@ Result<IndependentOptimum> CompareOptima(const CommonProblem& common, const Arra
   found.images = static_cast<int>(common.data.images.size());
   found.images_left_out = common.images_left_out;
   const auto begin = std::chrono::steady_clock::now();
-  TELESTRAIN_ASSIGN_OR_RETURN(LatticeProblem lattice,
-                              LatticeProblemOf(common.data, common.start));
+  TELESTRAIN_ASSIGN_OR_RETURN(LatticeProblem lattice, LatticeProblemOf(common.data, common.start));
   TELESTRAIN_ASSIGN_OR_RETURN(const MrcalOutcome outcome, SolveWithMrcal(lattice.problem));
   found.mrcal_seconds = SecondsSince(begin);
   found.mrcal_converged = outcome.converged;
   const ArrayState theirs = StateOfMrcal(lattice, common.start);
-  TELESTRAIN_ASSIGN_OR_RETURN(
-      const Residuals of_mrcal,
-      MrcalCornerResiduals(common.data, theirs, lattice.problem.cameras));
+  TELESTRAIN_ASSIGN_OR_RETURN(const Residuals of_mrcal,
+                              MrcalCornerResiduals(common.data, theirs, lattice.problem.cameras));
   const Residuals of_ours = OurResiduals(common.data, ours);
   found.max_residual_difference_px = MaxDifference(of_ours, of_mrcal);
   found.max_magnification_difference = MaxMagnificationDifference(ours.array, theirs.array);
@@ -161,9 +159,8 @@ Result<IndependentOptimum> CheckAgainstMrcal(const CalibrationData& data,
         std::max(found.telecentricity_left_out_per_mm, std::abs(lens.telecentricity_per_mm));
     lens.telecentricity_per_mm = 0;
   }
-  TELESTRAIN_ASSIGN_OR_RETURN(
-      const Residuals evaluated,
-      MrcalCornerResiduals(data, parallel, MrcalCamerasOf(parallel.array)));
+  TELESTRAIN_ASSIGN_OR_RETURN(const Residuals evaluated,
+                              MrcalCornerResiduals(data, parallel, MrcalCamerasOf(parallel.array)));
   found.evaluated_max_residual_difference_px =
       MaxDifference(OurResiduals(data, parallel), evaluated);
   return found;

@@ -10,8 +10,8 @@ namespace telestrain {
 // Optimised: every view with a magnification of its own, no distortion, the plate as certified, no
 // stage, no prior, no robust loss, one weight per corner (IsotropicWeight): the largest common part
 // of both programs, in which both minimise the same function from the same start.
-// Evaluated: what mrcal cannot optimise (one lens for all views, its distortion and aspect, bows) is
-// compared at our solution: both must predict the same pixels.
+// Evaluated: what mrcal cannot optimise (one lens for all views, its distortion and aspect, bows)
+// is compared at our solution: both must predict the same pixels.
 
 // Bars of issue 5. A residual is known to 1e-7 px: parallel rays are a limit (mrcal_telecentric.h).
 inline constexpr double kMaxResidualDifference_px = 1e-6;

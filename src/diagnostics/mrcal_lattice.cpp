@@ -154,8 +154,8 @@ PlateLattice LatticeOver(const CalibrationData& data) {
   const Eigen::Vector2d size = (high - low) / lattice.spacing_mm;
   lattice.columns = static_cast<int>(std::ceil(size.x())) + 1;
   lattice.rows = static_cast<int>(std::ceil(size.y())) + 1;
-  const Eigen::Vector2d reach = lattice.spacing_mm * Eigen::Vector2d(lattice.columns - 1,
-                                                                      lattice.rows - 1);
+  const Eigen::Vector2d reach =
+      lattice.spacing_mm * Eigen::Vector2d(lattice.columns - 1, lattice.rows - 1);
   const Eigen::Vector2d first = (low + high - reach) / 2;
   lattice.first_node_in_target_mm = {first.x(), first.y(), height_mm};
   return lattice;
@@ -164,8 +164,7 @@ PlateLattice LatticeOver(const CalibrationData& data) {
 std::optional<CondensedBoard> Condense(const BoardData& board, const PlateLattice& lattice) {
   const Cloud cloud(board);
   const Neighbours around = NeighboursOf(cloud, lattice);
-  const Eigen::Matrix2d covariance =
-      cloud.covariance / (lattice.spacing_mm * lattice.spacing_mm);
+  const Eigen::Matrix2d covariance = cloud.covariance / (lattice.spacing_mm * lattice.spacing_mm);
   Moments wanted, normal;
   wanted << 1, 0, 0, covariance(0, 0), covariance(0, 1), covariance(1, 1);
   // Gauss's distribution has the moments but for the lattice's steps and ends.
@@ -182,8 +181,7 @@ std::optional<CondensedBoard> Condense(const BoardData& board, const PlateLattic
     const int node = around.nodes[i];
     const Eigen::Vector2d place_mm = lattice.spacing_mm * around.places[i];
     condensed.pixels.col(node) = image * Eigen::Vector3d(1, place_mm.x(), place_mm.y());
-    condensed.weight_1_px(node) =
-        std::sqrt(cloud.total * (*weights)(static_cast<Eigen::Index>(i)));
+    condensed.weight_1_px(node) = std::sqrt(cloud.total * (*weights)(static_cast<Eigen::Index>(i)));
   }
   return condensed;
 }

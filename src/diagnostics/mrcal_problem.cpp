@@ -88,12 +88,12 @@ Arrays::Arrays(const MrcalProblem& problem)
         PoseOfMrcal(frame.array_from_target, frame.origin_in_array_mm / problem.unit_mm));
   for (const MrcalSighting& sighting : problem.sightings) AddSighting(sighting);
   for (const MrcalPin& pin : problem.pins) AddPin(pin, problem.unit_mm);
-  residuals_.resize(static_cast<std::size_t>(
-      mrcal_num_measurements(SightingCount(), PinCount(), columns_, rows_, LensCount(),
-                             CameraCount(), FrameCount(), PinCount(), PinCount(), selections_,
-                             &model_)));
-  state_.resize(static_cast<std::size_t>(mrcal_num_states(LensCount(), CameraCount(), FrameCount(), PinCount(), PinCount(),
-                       SightingCount(), selections_, &model_)));
+  residuals_.resize(static_cast<std::size_t>(mrcal_num_measurements(
+      SightingCount(), PinCount(), columns_, rows_, LensCount(), CameraCount(), FrameCount(),
+      PinCount(), PinCount(), selections_, &model_)));
+  state_.resize(static_cast<std::size_t>(mrcal_num_states(LensCount(), CameraCount(), FrameCount(),
+                                                          PinCount(), PinCount(), SightingCount(),
+                                                          selections_, &model_)));
 }
 
 std::size_t Arrays::IntrinsicsSize() const {
@@ -128,7 +128,8 @@ void Arrays::AddSighting(const MrcalSighting& sighting) {
 // A lens of its own, blind in the coordinate that is not pinned.
 void Arrays::AddPin(const MrcalPin& pin, double unit_mm) {
   const std::size_t lens = IntrinsicsSize() * static_cast<std::size_t>(pin.camera);
-  const std::vector<double> core(intrinsics_.begin() + lens, intrinsics_.begin() + lens + kCoreSize);
+  const std::vector<double> core(intrinsics_.begin() + lens,
+                                 intrinsics_.begin() + lens + kCoreSize);
   mrcal_observation_point_t seen{};
   seen.icam.intrinsics = LensCount();
   seen.icam.extrinsics = pin.camera;
@@ -136,8 +137,8 @@ void Arrays::AddPin(const MrcalPin& pin, double unit_mm) {
   seen.px.x = core[2];
   seen.px.y = core[3];
   seen.px.z = 1;
-  intrinsics_.insert(intrinsics_.end(), {pin.pins_u ? core[0] : 0, pin.pins_v ? core[1] : 0,
-                                         core[2], core[3]});
+  intrinsics_.insert(intrinsics_.end(),
+                     {pin.pins_u ? core[0] : 0, pin.pins_v ? core[1] : 0, core[2], core[3]});
   intrinsics_.resize(intrinsics_.size() + IntrinsicsSize() - kCoreSize);
   sensors_.insert(sensors_.end(), {1, 1});
   mrcal_point3_t point{};
@@ -152,8 +153,8 @@ bool Arrays::Evaluate() {
       static_cast<int>(residuals_.size() * sizeof(double)), nullptr, intrinsics_.data(),
       cameras_.data(), frames_.data(), points_.data(), &warp_, LensCount(), CameraCount(),
       FrameCount(), PinCount(), PinCount(), sightings_.data(), pins_.data(), SightingCount(),
-      PinCount(), nodes_.data(), &model_,
-      sensors_.data(), selections_, &constants_, spacing_, columns_, rows_, false);
+      PinCount(), nodes_.data(), &model_, sensors_.data(), selections_, &constants_, spacing_,
+      columns_, rows_, false);
 }
 
 bool Arrays::Optimise() {
@@ -162,8 +163,7 @@ bool Arrays::Optimise() {
       static_cast<int>(residuals_.size() * sizeof(double)), intrinsics_.data(), cameras_.data(),
       frames_.data(), points_.data(), &warp_, LensCount(), CameraCount(), FrameCount(), PinCount(),
       PinCount(), sightings_.data(), pins_.data(), SightingCount(), PinCount(), nodes_.data(),
-      &model_, sensors_.data(),
-      selections_, &constants_, spacing_, columns_, rows_, false, false);
+      &model_, sensors_.data(), selections_, &constants_, spacing_, columns_, rows_, false, false);
   return stats.rms_reproj_error__pixels >= 0;  // -1 when it failed
 }
 
@@ -235,8 +235,7 @@ std::vector<MrcalPin> PinsAt(const std::vector<MrcalCamera>& cameras) {
   const MrcalCamera& first = cameras.front();
   const Eigen::Matrix3d axes = first.camera_from_reference.transpose();
   const Eigen::Vector3d depth = axes.col(2);
-  const Eigen::Vector3d middle =
-      -axes.leftCols<2>() * first.origin_in_camera_mm.head<2>();
+  const Eigen::Vector3d middle = -axes.leftCols<2>() * first.origin_in_camera_mm.head<2>();
   MrcalPin last;
   double steepest = 0;
   for (std::size_t c = 1; c < cameras.size(); ++c) {

@@ -50,7 +50,7 @@ struct MrcalProblem {
   // at any number (no regularisation).
   bool free_distortion = false;
   std::vector<MrcalCamera> cameras;
-  std::vector<TargetPose> frames;  // reference from grid; the grid's first node is its origin
+  std::vector<TargetPose> frames;        // reference from grid; the grid's first node is its origin
   std::vector<MrcalSighting> sightings;  // ordered by frame
   std::vector<MrcalPin> pins;            // none: the frame stays free
 };
@@ -69,8 +69,9 @@ std::vector<MrcalPin> PinsAt(const std::vector<MrcalCamera>& cameras);
 // mrcal refuses the problem.
 Result<std::vector<Eigen::Matrix2Xd>> MrcalResiduals(const MrcalProblem& problem);
 
-// Moves all cameras and frames to mrcal's optimum. mrcal stops when its step is short and does not say after how
-// many, so it runs again from where it stopped until the sum of squares stays as it is.
+// Moves all cameras and frames to mrcal's optimum. mrcal stops when its step is short and does not
+// say after how many, so it runs again from where it stopped until the sum of squares stays as it
+// is.
 struct MrcalOutcome {
   double rms = 0;  // of the weighted residuals of the nodes seen, over scalars
   int runs = 0;

@@ -34,9 +34,9 @@ MrcalSighting SightingOf(const BoardData& board, int nodes) {
 // The sub-board's own grid with its pitch and bows, in the poses of the plate.
 MrcalProblem ProblemOfBoard(const CalibrationData& data, const ArrayState& state, int sub_board) {
   const BoardShape shape = state.target.Board(sub_board);
-  TELESTRAIN_CHECK(shape.shift_mm == 0 && shape.height_mm == 0 && shape.tilt_x_rad == 0 &&
-                       shape.tilt_y_rad == 0,
-                   "boards lie where their certificate says");
+  TELESTRAIN_CHECK(
+      shape.shift_mm == 0 && shape.height_mm == 0 && shape.tilt_x_rad == 0 && shape.tilt_y_rad == 0,
+      "boards lie where their certificate says");
   const double scale = 1 + state.target.pitch_relative;
   const TargetPose grid = GridInTarget(GeometryOfBoard(data.target, sub_board), scale);
   MrcalProblem problem;
@@ -60,8 +60,7 @@ std::vector<MrcalCamera> MrcalCamerasOf(const ArrayCalibration& array) {
 }
 
 Result<std::vector<Eigen::Matrix2Xd>> MrcalCornerResiduals(
-    const CalibrationData& data, const ArrayState& state,
-    const std::vector<MrcalCamera>& cameras) {
+    const CalibrationData& data, const ArrayState& state, const std::vector<MrcalCamera>& cameras) {
   std::vector<Eigen::Matrix2Xd> residuals(data.boards.size());
   for (int b = 0; b < static_cast<int>(data.target.boards.size()); ++b) {
     MrcalProblem problem = ProblemOfBoard(data, state, b);
@@ -98,16 +97,16 @@ Result<LatticeProblem> LatticeProblemOf(const CalibrationData& data, const Array
   for (const TargetPose& pose : start.poses)
     made.problem.frames.push_back(Compose(pose, first_node));
   for (const BoardData& board : data.boards) {
-    const Eigen::VectorXd heights_mm = board.corners_in_target_mm.row(2).array() -
-                                       made.lattice.first_node_in_target_mm.z();
+    const Eigen::VectorXd heights_mm =
+        board.corners_in_target_mm.row(2).array() - made.lattice.first_node_in_target_mm.z();
     if (heights_mm.cwiseAbs().maxCoeff() > kSamePlane_mm)
       return EstimationFailed("mrcal's target is one plane; these sub-boards lie in several");
     auto condensed = Condense(board, made.lattice);
     if (!condensed)
       return EstimationFailed("a board has too few corners for mrcal's lattice of " +
                               std::to_string(made.lattice.spacing_mm) + " mm");
-    made.problem.sightings.push_back({board.view, board.image, std::move(condensed->pixels),
-                                      std::move(condensed->weight_1_px)});
+    made.problem.sightings.push_back(
+        {board.view, board.image, std::move(condensed->pixels), std::move(condensed->weight_1_px)});
   }
   return made;
 }
@@ -128,8 +127,7 @@ ArrayState StateOfMrcal(const LatticeProblem& solved, const ArrayState& start) {
     const TargetPose& frame = solved.problem.frames[k];
     state.poses[k].array_from_target = frame.array_from_target;
     state.poses[k].origin_in_array_mm =
-        frame.origin_in_array_mm -
-        frame.array_from_target * solved.lattice.first_node_in_target_mm;
+        frame.origin_in_array_mm - frame.array_from_target * solved.lattice.first_node_in_target_mm;
   }
   return state;
 }

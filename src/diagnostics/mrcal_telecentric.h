@@ -25,10 +25,10 @@ namespace telestrain {
 //   so that the sum of squares of its corners (weights w, places b = (1, x, y), pixels q) is
 //     sum w^2 |A b - q|^2 = sum v^2 |A c - p|^2 + constant
 //   for any nodes c of one lattice over the whole plate with sum v^2 c c^T = sum w^2 b b^T and
-//   p = A0 c, A0 the best affine image of the corners. Weights v > 0 that fulfil these six equations
-//   are found by maximum entropy. mrcal so minimises the very same function of the same unknowns,
-//   in which the certified places of the boards are exact; its optimum is then evaluated corner by
-//   corner as above.
+//   p = A0 c, A0 the best affine image of the corners. Weights v > 0 that fulfil these six
+//   equations are found by maximum entropy. mrcal so minimises the very same function of the same
+//   unknowns, in which the certified places of the boards are exact; its optimum is then evaluated
+//   corner by corner as above.
 
 inline constexpr double kMrcalDistance_mm = 1e12;
 inline constexpr double kMrcalUnit_mm = 1e6;
@@ -41,8 +41,9 @@ std::vector<MrcalCamera> MrcalCamerasOf(const ArrayCalibration& array);
 // 2xN like BoardData::pixels. `state` may have a shared or distorted lens, an aspect, a pitch and
 // bows; boards that are shifted, raised or tilted against the certificate are a broken contract
 // (AdjustBundle keeps them).
-Result<std::vector<Eigen::Matrix2Xd>> MrcalCornerResiduals(
-    const CalibrationData& data, const ArrayState& state, const std::vector<MrcalCamera>& cameras);
+Result<std::vector<Eigen::Matrix2Xd>> MrcalCornerResiduals(const CalibrationData& data,
+                                                           const ArrayState& state,
+                                                           const std::vector<MrcalCamera>& cameras);
 
 // The lattice problem of `data` (its corners count with IsotropicWeight) at `start`, undistorted
 // with one magnification a view. Fails (kEstimationFailed) when the boards do not lie in one plane.

@@ -145,8 +145,7 @@ void CountErrors(const CalibrationData& data, PinholeCalibration& calibration) {
   calibration.all = Statistics(data, calibration.errors_px, -1);
   calibration.of_view.clear();
   for (std::size_t v = 0; v < calibration.views.size(); ++v)
-    calibration.of_view.push_back(
-        Statistics(data, calibration.errors_px, static_cast<int>(v)));
+    calibration.of_view.push_back(Statistics(data, calibration.errors_px, static_cast<int>(v)));
 }
 
 std::vector<PinholeView> PinholeViewsAt(const Session& session, const CalibrationData& data,

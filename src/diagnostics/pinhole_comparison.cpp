@@ -67,11 +67,12 @@ struct Case {
 PinholeArm ArmOf(const Case& given, const PinholeOptions& options,
                  const PinholeCalibration& found) {
   PinholeArm arm;
-  arm.model = options.free_distortion ? "pinhole, five coefficients" : "pinhole";
+  arm.five_coefficients = options.free_distortion;
+  arm.solver = options.free_distortion ? "telestrain" : "mrcal";
   arm.working_distance_mm = options.working_distance_mm;
   arm.reprojection = found.all;
   arm.histogram = Histogram(found.errors_px);
-  arm.runs = found.iterations;
+  arm.iterations = found.iterations;
   arm.converged = !found.hit_iteration_limit;
   double squares = 0;
   for (const PinholeRulerLength& length :
@@ -116,7 +117,8 @@ Result<PinholeArm> SolveArm(const Case& given, double distance_mm, bool free_dis
   options.free_distortion = free_distortion;
   TELESTRAIN_ASSIGN_OR_RETURN(
       const PinholeCalibration found,
-      CalibratePinholeWithMrcal(given.session, given.data, given.state, options));
+      free_distortion ? CalibratePinhole(given.session, given.data, given.state, options)
+                      : CalibratePinholeWithMrcal(given.session, given.data, given.state, options));
   PinholeArm arm = ArmOf(given, options, found);
   if (!free_distortion && distance_mm == given.options.seeded_distance_mm)
     CountWrongMinima(given, options, found.all.rms_px, arm);
@@ -146,7 +148,7 @@ std::optional<double> PinholeComparison::AsGoodFrom_mm() const {
   constexpr double kAsGood = 1.01;
   std::optional<double> nearest;
   for (const PinholeArm& arm : arms)
-    if (arm.model == "pinhole" && arm.reprojection.rms_px <= kAsGood * telecentric.rms_px)
+    if (!arm.five_coefficients && arm.reprojection.rms_px <= kAsGood * telecentric.rms_px)
       nearest = std::min(nearest.value_or(arm.working_distance_mm), arm.working_distance_mm);
   return nearest;
 }

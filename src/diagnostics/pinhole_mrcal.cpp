@@ -149,16 +149,11 @@ Result<PinholeCalibration> CalibratePinholeWithMrcal(const Session& session,
   PinholeCalibration found;
   found.views = PinholeViewsAt(session, data, telecentric, options);
   found.poses = telecentric.poses;
-  if (options.free_distortion) {
-    TELESTRAIN_ASSIGN_OR_RETURN(const PinholeCalibration start,
-                                CalibratePinhole(session, data, telecentric, options));
-    found.views = start.views;
-    found.poses = start.poses;
-  }
   found.errors_px.resize(data.boards.size());
   std::map<int, TargetPose> known;
   for (const std::string& name : session.Groups()) {
-    Group group = MakeGroup(data, found.views, found.poses, name);
+    Group group = MakeGroup(data, found.views, telecentric.poses, name);
+    if (group.boards.empty()) continue;
     group.problem.free_distortion = options.free_distortion;
     if (group.views.size() > 1 && !options.free_distortion)
       group.problem.pins = PinsAt(group.problem.cameras);

@@ -1,12 +1,9 @@
 // Speed of the bundle adjustment on one core, against mrcal_optimize on the pinhole twin of the
 // same problem: four views, 117 corners a board, noise 0.1 px, a seed about 1 px off.
 #include <benchmark/benchmark.h>
-#ifdef TELESTRAIN_HAS_MRCAL
-#include <cholmod.h>
 extern "C" {
 #include <mrcal/mrcal.h>
 }
-#endif
 
 #include <algorithm>
 #include <cmath>
@@ -123,8 +120,6 @@ void CalibrateFrames(benchmark::State& state) {
 }
 BENCHMARK(CalibrateFrames)->Unit(benchmark::kMillisecond);
 
-#ifdef TELESTRAIN_HAS_MRCAL
-
 // Lengths in km, and pinholes so far away that their rays are parallel: mrcal's telecentric limit.
 // Their cores stay fixed; the distance takes the magnification's place.
 struct MrcalTwin {
@@ -234,8 +229,6 @@ void AgainstMrcal(benchmark::State& state) {
   state.counters["mrcal_rms_px"] = twin.rms_px;
 }
 BENCHMARK(AgainstMrcal)->Arg(300)->Iterations(9)->Unit(benchmark::kMillisecond);
-
-#endif
 
 }  // namespace
 }  // namespace telestrain

@@ -32,6 +32,7 @@ struct HeavyLibrary {
 constexpr std::array kHeavyLibraries = {
     HeavyLibrary{"opencv2/", "target correlation simulation"},
     HeavyLibrary{"ceres/", "calibration diagnostics measurement"},
+    HeavyLibrary{"mrcal/", "diagnostics"},
     HeavyLibrary{"vtk", "viz"},
     HeavyLibrary{"GL/", "viz"},
     HeavyLibrary{"hpdf", "report"},

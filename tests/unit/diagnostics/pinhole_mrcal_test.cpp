@@ -2,10 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
-#include <cstdio>
+#include <cmath>
 
-#include "diagnostics/pinhole_comparison.h"
 #include "geometry/rotation.h"
 #include "unit/diagnostics/pinhole_array.h"
 
@@ -16,26 +14,88 @@ using testing_support::MakeCase;
 using testing_support::PinholeCase;
 using testing_support::SyntheticOptions;
 
-double Now() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+PinholeOptions At(double working_distance_mm) {
+  PinholeOptions options;
+  options.working_distance_mm = working_distance_mm;
+  return options;
 }
 
-TEST(SpikeP, A) {
-  SyntheticOptions so;
-  so.poses = 18;
-    PinholeCase made = MakeCase(so);
-    auto crosses = MakeRulers(made.array, 8);
-    double t0=Now(); double c0=double(clock());
-    auto found = ComparePinhole(made.array.session, made.data, made.telecentric, crosses);
-    std::printf("%.3f s cpu %.3f tele %.5f\n", Now()-t0,(double(clock())-c0)/CLOCKS_PER_SEC, found->telecentric.rms_px);
-    for (auto& arm : found->arms)
-      std::printf("%s D %g rms %.5f ruler %.3f max %.3f runs %d conv %d starts %d wrong %d\n", arm.model.c_str(), arm.working_distance_mm, arm.reprojection.rms_px, arm.ruler_rmse_um, arm.ruler_max_um, arm.runs, arm.converged, arm.starts, arm.wrong_minima);
-    for (double turn : {3.,10.,20.,40.}) for (double D:{100.,1000., 1e5}) {
-      PinholeComparisonOptions o; o.distances_mm={D}; o.distorted_distances_mm={}; o.seeded_distance_mm=D; o.seeds=10; o.seed_turn_deg=turn;
-    c0=double(clock());
-    auto f = ComparePinhole(made.array.session, made.data, made.telecentric, crosses, o);
-    std::printf("turn %g D %g wrong %d of %d cpu %.3f\n",turn,D,f->arms[0].wrong_minima,f->arms[0].starts,(double(clock())-c0)/CLOCKS_PER_SEC);
+PinholeCase CaseWith(double noise_px, bool mirrored) {
+  SyntheticOptions options;
+  options.noise_px = noise_px;
+  options.mirrored = mirrored;
+  options.poses = 6;
+  return MakeCase(options);
+}
+
+PinholeCalibration MustSolve(const PinholeCase& made, const PinholeOptions& options) {
+  auto found = CalibratePinholeWithMrcal(made.array.session, made.data, made.telecentric, options);
+  EXPECT_TRUE(found.ok()) << (found.ok() ? "" : found.error().message);
+  return std::move(found).value();
+}
+
+void KeepGroupA(PinholeCase& made) {
+  std::erase_if(made.data.boards, [](const BoardData& board) { return board.geometry.board != 0; });
+}
+
+double LargestDifference_px(const PinholeCalibration& a, const PinholeCalibration& b) {
+  double largest = 0;
+  for (std::size_t i = 0; i < a.errors_px.size(); ++i)
+    largest = std::max(largest, (a.errors_px[i] - b.errors_px[i]).cwiseAbs().maxCoeff());
+  return largest;
+}
+
+TEST(CalibratePinholeWithMrcal, FindsWhatOurOwnAdjustmentFindsInOneGroup) {
+  for (const bool mirrored : {false, true}) {
+    PinholeCase made = CaseWith(0.1, mirrored);
+    KeepGroupA(made);
+    for (const double distance_mm : {100.0, 1000.0, 1e5}) {
+      const PinholeCalibration mrcal = MustSolve(made, At(distance_mm));
+      const PinholeCalibration ours = made.MustCalibrate(At(distance_mm));
+      // Ours stops when the sum of squares stays to 1e-10: errors of 1e-5 of their RMS.
+      EXPECT_LT(LargestDifference_px(mrcal, ours), 1e-5 * ours.all.rms_px);
+      EXPECT_NEAR(mrcal.all.rms_px, ours.all.rms_px, 1e-9);
+      EXPECT_FALSE(mrcal.hit_iteration_limit);
     }
+  }
+}
+
+TEST(CalibratePinholeWithMrcal, FindsTheSameCoefficients) {
+  PinholeCase made = CaseWith(0.1, false);
+  KeepGroupA(made);
+  PinholeOptions options = At(300);
+  options.free_distortion = true;
+  const PinholeCalibration mrcal = MustSolve(made, options);
+  const PinholeCalibration ours = made.MustCalibrate(options);
+  EXPECT_LT(LargestDifference_px(mrcal, ours), 1e-4 * ours.all.rms_px);
+  EXPECT_LT(ours.all.rms_px, made.MustCalibrate(At(300)).all.rms_px);
+}
+
+TEST(CalibratePinholeWithMrcal, ExactPinholeCornersGiveTheExactCamerasOfBothGroups) {
+  for (const bool mirrored : {false, true}) {
+    PinholeCase made = CaseWith(0, mirrored);
+    const auto truth = PinholeViewsAt(made.array.session, made.data, made.telecentric, At(120));
+    SeeWith(truth, made);
+    DisturbStart(made);
+    const PinholeCalibration found = MustSolve(made, At(120));
+    EXPECT_LT(found.all.max_px, 1e-6);
+    for (std::size_t v = 0; v < truth.size(); ++v)
+      // 1e-6 px on a board of 200 px radius are 5e-9 rad.
+      EXPECT_LT(AngleBetween_rad(
+                    found.views[v].camera_from_array * found.views[0].camera_from_array.transpose(),
+                    truth[v].camera_from_array * truth[0].camera_from_array.transpose()),
+                1e-8);
+  }
+}
+
+TEST(CalibratePinholeWithMrcal, GroupsWithoutACommonImageCannotBeJoined) {
+  PinholeCase made = CaseWith(0.1, false);
+  std::erase_if(made.data.boards,
+                [](const BoardData& board) { return board.geometry.board != board.image % 2; });
+  const auto found =
+      CalibratePinholeWithMrcal(made.array.session, made.data, made.telecentric, At(1000));
+  ASSERT_FALSE(found.ok());
+  EXPECT_EQ(found.error().kind, ErrorKind::kEstimationFailed);
 }
 
 }  // namespace

@@ -62,8 +62,8 @@ ArrayState MakeTruth(const Session& session, Random& random) {
   TelecentricLens lens = session.NominalLens();
   lens.magnification_px_per_mm *= 1 + random.Normal(1e-3);
   lens.aspect = 1 + random.Normal(1e-4);
-  lens.distortion = {random.Normal(2e-6), random.Normal(1e-8), random.Normal(2e-6),
-                     random.Normal(2e-6), random.Normal(1e-11)};
+  lens.distortion = {random.Normal(1e-6), random.Normal(1e-9), random.Normal(1e-6),
+                     random.Normal(1e-6), random.Normal(1e-12)};
   truth.array.lenses = {lens};
   for (const NominalView& nominal : session.views) {
     TelecentricView view = session.NominalTelecentricView(nominal);

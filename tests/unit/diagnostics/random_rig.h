@@ -16,6 +16,6 @@ struct RandomRig {
   ArrayState start;  // about a pixel off, undistorted, flat
 };
 
-RandomRig MakeRandomRig(std::uint64_t seed, int images = 12);
+RandomRig MakeRandomRig(std::uint64_t seed, int images = 8);
 
 }  // namespace telestrain::testing_support
