@@ -5,6 +5,7 @@
 #include <limits>
 #include <random>
 
+#include "base/parallel.h"
 #include "diagnostics/pinhole_mrcal.h"
 #include "diagnostics/pinhole_ruler.h"
 #include "geometry/rotation.h"
@@ -90,7 +91,7 @@ PinholeArm ArmOf(const Case& given, const PinholeOptions& options,
 // A seed that our adjustment cannot follow to an end has not found the minimum either.
 void CountWrongMinima(const Case& given, PinholeOptions options, double best_px, PinholeArm& arm) {
   std::vector<double> rms_px;
-  options.max_iterations = 50;
+  options.max_iterations = 30;
   for (int seed = 1; seed <= given.options.seeds; ++seed) {
     const auto found = CalibratePinhole(
         given.session, given.data,
@@ -134,12 +135,19 @@ Result<PinholeComparison> ComparePinhole(const Session& session, const Calibrati
   const Case given{session, data, state, crosses, options};
   PinholeComparison comparison;
   DescribeTelecentric(given, comparison);
-  for (const bool free_distortion : {false, true}) {
-    for (const double distance_mm :
-         free_distortion ? options.distorted_distances_mm : options.distances_mm) {
-      TELESTRAIN_ASSIGN_OR_RETURN(PinholeArm arm, SolveArm(given, distance_mm, free_distortion));
-      comparison.arms.push_back(std::move(arm));
-    }
+  const auto locked = static_cast<int>(options.distances_mm.size());
+  const auto distorted = static_cast<int>(options.distorted_distances_mm.size());
+  std::vector<std::optional<Result<PinholeArm>>> arms(static_cast<std::size_t>(locked + distorted));
+  ParallelFor(locked + distorted, options.threads, [&](int i) {
+    const bool free_distortion = i >= locked;
+    const double distance_mm =
+        free_distortion ? options.distorted_distances_mm[static_cast<std::size_t>(i - locked)]
+                        : options.distances_mm[static_cast<std::size_t>(i)];
+    arms[static_cast<std::size_t>(i)] = SolveArm(given, distance_mm, free_distortion);
+  });
+  for (auto& arm : arms) {
+    TELESTRAIN_RETURN_IF_ERROR(arm->ok() ? Status() : Status(arm->error()));
+    comparison.arms.push_back(std::move(*arm).value());
   }
   return comparison;
 }

@@ -90,7 +90,7 @@ void Compare(benchmark::State& state) {
     benchmark::DoNotOptimize(ComparePinhole(problem.array.session, problem.calibration.data,
                                             problem.calibration.bundle.state, {}));
 }
-BENCHMARK(Compare)->Unit(benchmark::kMillisecond);
+BENCHMARK(Compare)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
 
 }  // namespace
 }  // namespace telestrain
