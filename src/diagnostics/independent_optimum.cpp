@@ -14,8 +14,8 @@ namespace {
 
 using Residuals = std::vector<Eigen::Matrix2Xd>;
 
-// A board of four by five squares has more. With less the lattice would need too many nodes.
-constexpr double kLeastSpread_squares = 1.2;
+// A board of six by six corners has more. With less the lattice would need too many nodes.
+constexpr double kLeastSpread_squares = 1.6;
 
 double SecondsSince(std::chrono::steady_clock::time_point begin) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

@@ -231,6 +231,7 @@ Result<std::vector<Eigen::Matrix2Xd>> MrcalResiduals(const MrcalProblem& problem
 
 // What is pinned has the value zero, which no magnification and no depth changes.
 std::vector<MrcalPin> PinsAt(const std::vector<MrcalCamera>& cameras) {
+  TELESTRAIN_CHECK(cameras.size() >= 2, "the depth of a camera is pinned by another one");
   constexpr double kReach_mm = 10;  // about a field
   const MrcalCamera& first = cameras.front();
   const Eigen::Matrix3d axes = first.camera_from_reference.transpose();
@@ -259,6 +260,8 @@ Result<MrcalOutcome> SolveWithMrcal(MrcalProblem& problem) {
   constexpr int kMaxRuns = 8;
   // Of the sum of squares: rounding of a sum of some ten thousand terms.
   constexpr double kStays = 1e-12;
+  constexpr double kNothing = 1e-16;  // of one scalar: 1e-8 px of a corner without noise
+  const auto scalars = static_cast<double>(2 * NodesSeen(problem));
   Arrays arrays(problem);
   if (!arrays.Evaluate()) return EstimationFailed("mrcal cannot evaluate the problem");
   double before = SumOfSquares(arrays.residuals());
@@ -266,11 +269,11 @@ Result<MrcalOutcome> SolveWithMrcal(MrcalProblem& problem) {
   while (!outcome.converged && outcome.runs < kMaxRuns) {
     if (!arrays.Optimise()) return EstimationFailed("mrcal's optimisation failed");
     const double after = SumOfSquares(arrays.residuals());
-    outcome.converged = std::abs(before - after) <= kStays * before;
+    outcome.converged = std::abs(before - after) <= kStays * before + kNothing * scalars;
     before = after;
     ++outcome.runs;
   }
-  outcome.rms = std::sqrt(before / static_cast<double>(2 * NodesSeen(problem)));
+  outcome.rms = std::sqrt(before / scalars);
   arrays.WriteBack(problem);
   return outcome;
 }

@@ -81,8 +81,13 @@ Result<std::vector<Eigen::Matrix2Xd>> MrcalCornerResiduals(
 
 Result<LatticeProblem> LatticeProblemOf(const CalibrationData& data, const ArrayState& start) {
   constexpr double kSamePlane_mm = 1e-9;
+  constexpr int kMaxNodes = 4000;  // some 10 s of mrcal for 36 images
   LatticeProblem made;
   made.lattice = LatticeOver(data);
+  if (made.lattice.NodeCount() > kMaxNodes)
+    return EstimationFailed("the plate is too large for its boards: mrcal's lattice would have " +
+                            std::to_string(made.lattice.NodeCount()) + " nodes, " +
+                            std::to_string(kMaxNodes) + " at most");
   made.problem.columns = made.lattice.columns;
   made.problem.rows = made.lattice.rows;
   made.problem.spacing_mm = made.lattice.spacing_mm;

@@ -46,7 +46,8 @@ Result<std::vector<Eigen::Matrix2Xd>> MrcalCornerResiduals(const CalibrationData
                                                            const std::vector<MrcalCamera>& cameras);
 
 // The lattice problem of `data` (its corners count with IsotropicWeight) at `start`, undistorted
-// with one magnification a view. Fails (kEstimationFailed) when the boards do not lie in one plane.
+// with one magnification a view. Fails (kEstimationFailed) when the boards do not lie in one plane
+// or so far apart that the lattice would have more than some thousand nodes.
 struct LatticeProblem {
   PlateLattice lattice;
   MrcalProblem problem;

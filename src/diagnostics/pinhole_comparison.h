@@ -26,7 +26,7 @@ struct PinholeComparisonOptions {
   // by up to seed_shift_mm.
   double seeded_distance_mm = 1000;
   int seeds = 3;
-  double seed_turn_deg = 30;
+  double seed_turn_deg = 20;
   double seed_shift_mm = 1;
   int threads = 0;  // arms side by side; 0: one per core. No effect on the result.
 };

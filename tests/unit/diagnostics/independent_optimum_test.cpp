@@ -62,11 +62,22 @@ TEST(CheckAgainstMrcal, AgreesOnTwentyRandomRigs) {
     const RandomRig rig = MakeRandomRig(seed);
     const auto found = CheckAgainstMrcal(rig.data, rig.truth, rig.start);
     ExpectAgreement(found);
+    EXPECT_GE(found->images, 4);  // enough for a problem with a shape of its own
     optimised_px = std::max(optimised_px, found->max_residual_difference_px);
     evaluated_px = std::max(evaluated_px, found->evaluated_max_residual_difference_px);
   }
   RecordProperty("largest_optimised_difference_px", std::to_string(optimised_px * 1e9) + "e-9");
   RecordProperty("largest_evaluated_difference_px", std::to_string(evaluated_px * 1e9) + "e-9");
+}
+
+TEST(CheckAgainstMrcal, BoardsFarApartForTheirSizeAreRefused) {
+  Scene scene = PlainScene();
+  for (BoardData& board : scene.data.boards)
+    if (board.geometry.board == 1)
+      board.corners_in_target_mm.colwise() += Eigen::Vector3d(100, 100, 0);
+  const auto found = CheckAgainstMrcal(scene.data, scene.truth, scene.start);
+  ASSERT_FALSE(found.ok());
+  EXPECT_NE(found.error().message.find("nodes"), std::string::npos);
 }
 
 TEST(CheckAgainstMrcal, TheSecondRunGivesTheSameBytes) {

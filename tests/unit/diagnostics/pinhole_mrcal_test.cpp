@@ -79,6 +79,7 @@ TEST(CalibratePinholeWithMrcal, ExactPinholeCornersGiveTheExactCamerasOfBothGrou
     DisturbStart(made);
     const PinholeCalibration found = MustSolve(made, At(120));
     EXPECT_LT(found.all.max_px, 1e-6);
+    EXPECT_FALSE(found.hit_iteration_limit);
     for (std::size_t v = 0; v < truth.size(); ++v)
       // 1e-6 px on a board of 200 px radius are 5e-9 rad.
       EXPECT_LT(AngleBetween_rad(
