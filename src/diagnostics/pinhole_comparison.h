@@ -15,7 +15,9 @@ namespace telestrain {
 // on such corners, so the working distance D is stated and the core locked at m D, for a range
 // of D. libmrcal solves the locked arms (pinhole_mrcal.h). Those with five coefficients are solved
 // by our own adjustment (pinhole_calibration.h), which finds the same in a twentieth of the time:
-// the tests hold both against each other.
+// the tests hold both against each other. Ours also keeps the two boards of the plate where its
+// certificate says and gives every corner its whole covariance, so that its RMS may be a little
+// larger where the coefficients bring nothing.
 
 struct PinholeComparisonOptions {
   std::vector<double> distances_mm = {100, 1000, 1e4, 1e5};
@@ -54,9 +56,10 @@ struct PinholeComparison {
   std::vector<PinholeArm> arms;  // locked ones in the order of their distances, then distorted ones
 
   // Where a pinhole is as good: the smallest of the distances at which a locked one without
-  // coefficients has no more than 1.01 times the telecentric RMS. It has one magnification per view
-  // more to spend and no plate to keep, and parallel rays are its limit: far enough away it is the
-  // telecentric model. Nothing when no distance is.
+  // coefficients has no more than 1.01 times the telecentric RMS. Parallel rays are its limit:
+  // far enough away it is a telecentric model, with a magnification for every view but without the
+  // distortion of the one lens, which no pinhole with a principal point of its own can have.
+  // Nothing when no distance is.
   std::optional<double> AsGoodFrom_mm() const;
 };
 
