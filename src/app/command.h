@@ -29,6 +29,7 @@ std::unique_ptr<Command> MakeSimulateCommand();
 std::unique_ptr<Command> MakeDesignCommand();
 std::unique_ptr<Command> MakeDetectCommand();
 std::unique_ptr<Command> MakeCalibrateCommand();
+std::unique_ptr<Command> MakeDiagnoseCommand();
 std::unique_ptr<Command> MakeVerifyCommand();
 std::unique_ptr<Command> MakeMeasureCommand();
 std::unique_ptr<Command> MakeRenderCommand();

@@ -19,7 +19,7 @@ class RunCommand : public Command {
  public:
   std::string Name() const override { return "run"; }
   std::string Summary() const override {
-    return "do everything: detect, calibrate, verify, measure, render, report";
+    return "do everything: detect, calibrate, diagnose, verify, measure, render, report";
   }
   std::string Example() const override { return "telestrain run session --out results"; }
   void AddOptions(CLI::App& app) override {
@@ -34,6 +34,7 @@ class RunCommand : public Command {
                                 OpenSession(arguments_.session, out, corners_));
     TELESTRAIN_RETURN_IF_ERROR(DetectStep(session, out, corners_, console));
     TELESTRAIN_RETURN_IF_ERROR(CalibrateStep(session, out, choices, console));
+    TELESTRAIN_RETURN_IF_ERROR(DiagnoseStep(out, console));
     TELESTRAIN_RETURN_IF_ERROR(VerifyStep(session, out, console));
     TELESTRAIN_RETURN_IF_ERROR(MeasureStep(session, out, console));
     TELESTRAIN_RETURN_IF_ERROR(RenderStep(out, console));

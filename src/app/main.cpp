@@ -54,6 +54,7 @@ std::vector<std::unique_ptr<Command>> AllCommands() {
   commands.push_back(MakeRunCommand());
   commands.push_back(MakeDetectCommand());
   commands.push_back(MakeCalibrateCommand());
+  commands.push_back(MakeDiagnoseCommand());
   commands.push_back(MakeVerifyCommand());
   commands.push_back(MakeMeasureCommand());
   commands.push_back(MakeRenderCommand());

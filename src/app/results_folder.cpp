@@ -21,6 +21,7 @@ const std::vector<std::string>& OutputsOf(Step step) {
   static const std::map<Step, std::vector<std::string>> kOutputs{
       {Step::kDetect, {"corners.vnl", "corner_covariances.csv", "detection.json"}},
       {Step::kCalibrate, {"calibration.json", "residuals.csv", "comparison.json"}},
+      {Step::kDiagnose, {"mrcal.json"}},
       {Step::kVerify, {"ruler.csv", "ruler.json"}},
       {Step::kMeasure, {"strain.csv", "strain.json"}},
       {Step::kRender, {"pictures/array.png", "pictures/targets.png", "pictures/pipe_strain.png"}},
@@ -103,10 +104,12 @@ Json ProgramJson() {
 }  // namespace
 
 Status RemoveOutputsFrom(const fs::path& results, Step step) {
-  // Ruler and pipe do not depend on each other; everything else follows in order.
-  for (const Step later : {Step::kDetect, Step::kCalibrate, Step::kVerify, Step::kMeasure,
-                           Step::kRender, Step::kReport}) {
-    if (later < step || (step == Step::kVerify && later == Step::kMeasure)) continue;
+  // Diagnosis, ruler and pipe do not depend on each other; everything else follows in order.
+  const auto is_branch = [](Step s) { return s >= Step::kDiagnose && s <= Step::kMeasure; };
+  for (const Step later : {Step::kDetect, Step::kCalibrate, Step::kDiagnose, Step::kVerify,
+                           Step::kMeasure, Step::kRender, Step::kReport}) {
+    if (later < step || (later != step && is_branch(step) && is_branch(later))) continue;
+    if (step == Step::kDiagnose && later == Step::kRender) continue;  // pictures do not show it
     for (const std::string& name : OutputsOf(later))
       TELESTRAIN_RETURN_IF_ERROR(Remove(results / name));
     if (later == Step::kMeasure) TELESTRAIN_RETURN_IF_ERROR(RemoveSurfaces(results));
@@ -174,6 +177,7 @@ Status RequireConsistent(const fs::path& results) {
   for (const auto& [name, schema, maker] :
        {std::tuple{"detection.json", "telestrain.detection/1", "telestrain detect"},
         std::tuple{"calibration.json", "telestrain.calibration/1", "telestrain calibrate"},
+        std::tuple{"mrcal.json", "telestrain.mrcal/1", "telestrain diagnose"},
         std::tuple{"ruler.json", "telestrain.ruler/1", "telestrain verify"},
         std::tuple{"strain.json", "telestrain.strain/1", "telestrain measure"}}) {
     std::error_code code;

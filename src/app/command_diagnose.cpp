@@ -1,0 +1,32 @@
+#include <CLI/CLI.hpp>
+
+#include "app/command.h"
+#include "app/steps.h"
+
+namespace telestrain {
+namespace {
+
+class DiagnoseCommand : public Command {
+ public:
+  std::string Name() const override { return "diagnose"; }
+  std::string Summary() const override {
+    return "check the calibration: mrcal's optimum, residuals, pinhole cameras";
+  }
+  std::string Example() const override { return "telestrain diagnose results"; }
+  void AddOptions(CLI::App& app) override {
+    app.add_option("RESULTS", results_, "results folder with a calibration")->required();
+  }
+  Result<int> Run(Console& console) override {
+    TELESTRAIN_RETURN_IF_ERROR(DiagnoseStep(results_, console));
+    return 0;
+  }
+
+ private:
+  std::string results_;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> MakeDiagnoseCommand() { return std::make_unique<DiagnoseCommand>(); }
+
+}  // namespace telestrain

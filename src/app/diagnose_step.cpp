@@ -1,0 +1,143 @@
+#include <algorithm>
+#include <array>
+#include <nlohmann/json.hpp>
+
+#include "app/results_folder.h"
+#include "app/steps.h"
+#include "base/json_file.h"
+#include "base/numbers.h"
+#include "diagnostics/diagnosis.h"
+#include "report/rounding.h"
+#include "target/detection.h"
+
+namespace telestrain {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Line {
+  std::string what, value, limit, judgement;
+};
+
+void SayTable(const std::vector<Line>& lines, Console& console) {
+  std::array<std::size_t, 3> width{};
+  for (const Line& line : lines)
+    for (std::size_t i = 0; const std::string* text : {&line.what, &line.value, &line.limit})
+      width[i] = std::max(width[i], text->size()), ++i;
+  const auto padded = [](const std::string& text, std::size_t to) {
+    return text + std::string(to - text.size(), ' ');
+  };
+  for (const Line& line : lines)
+    console.Say("  " + padded(line.what, width[0]) + "  " + padded(line.value, width[1]) + "  " +
+                padded(line.limit, width[2]) + "  " + line.judgement);
+}
+
+std::string Pixels(double value_px) { return PrintSignificant(value_px, 2) + " px"; }
+
+std::vector<Line> OptimumLines(const IndependentOptimum& optimum) {
+  const auto line = [](const char* what, const std::string& value, const std::string& limit,
+                       bool good) {
+    return Line{what, value, "at most " + limit, good ? "agrees" : "DISAGREES"};
+  };
+  const auto relative = [](double value) { return PrintSignificant(value, 2); };
+  return {
+      line("mrcal's own optimum: residuals", Pixels(optimum.max_residual_difference_px),
+           Pixels(kMaxResidualDifference_px),
+           optimum.mrcal_converged &&
+               optimum.max_residual_difference_px <= kMaxResidualDifference_px),
+      line("  magnifications, relative", relative(optimum.max_magnification_difference),
+           relative(kMaxMagnificationDifference),
+           optimum.max_magnification_difference <= kMaxMagnificationDifference),
+      line("  rotations between views", relative(optimum.max_rotation_difference_rad) + " rad",
+           relative(kMaxRotationDifference_rad) + " rad",
+           optimum.max_rotation_difference_rad <= kMaxRotationDifference_rad),
+      line("mrcal at our solution: residuals", Pixels(optimum.evaluated_max_residual_difference_px),
+           Pixels(kMaxResidualDifference_px),
+           optimum.evaluated_max_residual_difference_px <= kMaxResidualDifference_px)};
+}
+
+std::vector<Line> ResidualLines(const Diagnosis& diagnosis) {
+  const ResidualSummary summary = Summarise(diagnosis.residuals);
+  const NoiseReport& noise = diagnosis.verdict.noise;
+  const auto p = [](double value) {
+    return value < 1e-12 ? std::string("p < 1e-12") : "p " + PrintSignificant(value, 2);
+  };
+  std::size_t marked = 0;
+  for (const OutlierPass& pass : diagnosis.outlier_replay) marked += pass.marked.size();
+  return {{"residuals, RMS of a coordinate", Pixels(summary.rms_per_scalar_px),
+           "expected " + Pixels(diagnosis.expected_rms_px), ""},
+          {"  as large as stated (chi-square)", FormatFixed(noise.chi_square.sigma0, 3),
+           "expected 1", p(noise.chi_square.p_value)},
+          {"  normally distributed", FormatFixed(noise.normality.statistic, 2), "Anderson-Darling",
+           p(noise.normality.p_value)},
+          {"  unlike their neighbours (Moran)", "", "", p(noise.SmallestSpatialP())},
+          {"  steady over the images", "", "", p(noise.SmallestTrendP())},
+          {"  outliers by mrcal's rule", std::to_string(marked), "", ""}};
+}
+
+std::vector<Line> PinholeLines(const PinholeComparison& pinhole) {
+  std::vector<Line> lines{
+      {"telecentric, as calibrated", Pixels(pinhole.telecentric.rms_px), "", ""}};
+  for (const PinholeArm& arm : pinhole.arms)
+    lines.push_back({"  pinhole at " + PrintSignificant(arm.working_distance_mm / 1000, 2) + " m" +
+                         (arm.five_coefficients ? ", 5 coefficients" : ""),
+                     Pixels(arm.reprojection.rms_px),
+                     arm.ruler_error_um.empty()
+                         ? ""
+                         : "ruler RMSE " + PrintSignificant(arm.ruler_rmse_um, 2) + " um",
+                     arm.converged ? "" : "not converged"});
+  return lines;
+}
+
+void SayFindings(const std::vector<PatternFinding>& findings, Console& console) {
+  for (const PatternFinding& finding : findings) {
+    console.Say("  " + finding.text);
+    console.Say("    " + finding.remedy);
+  }
+}
+
+void SayDiagnosis(const Diagnosis& diagnosis, Console& console) {
+  console.Say("diagnose   " + diagnosis.verdict.text);
+  SayFindings(diagnosis.verdict.findings, console);
+  SayFindings(diagnosis.left_out, console);
+  std::vector<Line> lines = ResidualLines(diagnosis);
+  const auto append = [&](const std::vector<Line>& more) {
+    lines.insert(lines.end(), more.begin(), more.end());
+  };
+  if (diagnosis.optimum) append(OptimumLines(*diagnosis.optimum));
+  if (diagnosis.pinhole) append(PinholeLines(*diagnosis.pinhole));
+  SayTable(lines, console);
+  if (!diagnosis.optimum)
+    console.Warn("not checked against mrcal: " + diagnosis.optimum_missing_because);
+  if (!diagnosis.pinhole)
+    console.Warn("not compared with pinhole cameras: " + diagnosis.pinhole_missing_because);
+  if (diagnosis.optimum && !diagnosis.optimum->agrees())
+    console.Warn(
+        "mrcal and this program disagree: do not use this calibration before the reason "
+        "is known");
+}
+
+}  // namespace
+
+Status DiagnoseStep(const fs::path& results, Console& console) {
+  TELESTRAIN_RETURN_IF_ERROR(RequireConsistent(results));
+  TELESTRAIN_ASSIGN_OR_RETURN(const Session session, RecordedSession(results));
+  TELESTRAIN_ASSIGN_OR_RETURN(const CalibrationRecord record,
+                              ReadCalibrationRecord(session, results));
+  TELESTRAIN_ASSIGN_OR_RETURN(const std::vector<BoardObservation> boards,
+                              ReadDetectedBoards(session, results));
+  TELESTRAIN_ASSIGN_OR_RETURN(const std::vector<CrossObservation> crosses,
+                              ReadDetectedCrosses(results));
+  TELESTRAIN_RETURN_IF_ERROR(RemoveOutputsFrom(results, Step::kDiagnose));
+  TELESTRAIN_ASSIGN_OR_RETURN(const Diagnosis diagnosis,
+                              Diagnose(session, record, boards, crosses));
+  TELESTRAIN_ASSIGN_OR_RETURN(
+      const auto made_from,
+      HashesOf(results, {"calibration.json", "residuals.csv", "detection.json"}));
+  TELESTRAIN_RETURN_IF_ERROR(
+      WriteJson(results / "mrcal.json", DiagnosisJson(session, record, diagnosis, made_from)));
+  SayDiagnosis(diagnosis, console);
+  return {};
+}
+
+}  // namespace telestrain

@@ -1,0 +1,59 @@
+#include "diagnostics/diagnosis.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "calibration/array_seed.h"
+
+namespace telestrain {
+namespace {
+
+ArrayState StartOf(const Session& session, const ArraySeed& seed) {
+  ArrayState start;
+  start.array.lenses = {seed.lens};
+  start.array.views = seed.views;
+  start.poses = seed.poses;
+  start.stage_axis_in_array = session.stage_axis_in_array;
+  return start;
+}
+
+// As the calibration expects it: without the floor that only the weights know.
+double ExpectedRmsOf(const CalibrationData& data, int degrees) {
+  double variance_px2 = 0;
+  for (const BoardData& board : data.boards)
+    for (const Eigen::Matrix2d& w : board.whitening)
+      variance_px2 += (w.transpose() * w).inverse().trace() / 2 - data.floor_px * data.floor_px;
+  const auto corners = static_cast<double>(data.CornerCount());
+  return std::sqrt(std::max(0.0, variance_px2) / corners * degrees / (2 * corners));
+}
+
+}  // namespace
+
+Result<Diagnosis> Diagnose(const Session& session, const CalibrationRecord& record,
+                           const std::vector<BoardObservation>& observations,
+                           const std::vector<CrossObservation>& crosses) {
+  Diagnosis diagnosis;
+  diagnosis.verdict = JudgeResiduals(record.data, record.state);
+  diagnosis.residuals = ResidualsOf(record.data, record.state);
+  diagnosis.expected_rms_px = ExpectedRmsOf(record.data, diagnosis.verdict.degrees);
+  ResidualList replayed = diagnosis.residuals;
+  diagnosis.outlier_replay = ReplayOutlierRule(replayed);
+  TELESTRAIN_ASSIGN_OR_RETURN(const CalibrationData all,
+                              CollectCalibrationData(session, observations));
+  diagnosis.left_out = ExplainLeftOutBoards(all, record.data, record.state);
+  TELESTRAIN_ASSIGN_OR_RETURN(const ArraySeed seed, SeedArray(session, record.data));
+  auto optimum = CheckAgainstMrcal(record.data, record.state, StartOf(session, seed));
+  if (optimum)
+    diagnosis.optimum = *optimum;
+  else
+    diagnosis.optimum_missing_because = optimum.error().message;
+  auto pinhole = ComparePinhole(session, record.data, record.state, crosses);
+  if (pinhole)
+    diagnosis.pinhole = std::move(pinhole).value();
+  else
+    diagnosis.pinhole_missing_because = pinhole.error().message;
+  return diagnosis;
+}
+
+}  // namespace telestrain

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <map>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calibration/calibration_record.h"
+#include "diagnostics/independent_optimum.h"
+#include "diagnostics/pinhole_comparison.h"
+#include "diagnostics/residual_pattern.h"
+
+namespace telestrain {
+
+// All that lets a reviewer believe a calibration without believing us.
+struct Diagnosis {
+  ResidualList residuals;
+  // What the corners' own covariances leave after the fit, per scalar.
+  double expected_rms_px = 0;
+  std::vector<OutlierPass> outlier_replay;  // by mrcal's rule
+  ResidualVerdict verdict;
+  std::vector<PatternFinding> left_out;  // what is wrong with boards that the calibration left out
+  std::optional<IndependentOptimum> optimum;
+  std::string optimum_missing_because;  // where there is none
+  std::optional<PinholeComparison> pinhole;
+  std::string pinhole_missing_because;
+};
+
+// `observations`: every board as detected, for those that the calibration left out; `crosses`: of
+// the ruler, for the pinhole arm. What one of the checks cannot do is stated, not an error. Fails
+// (kEstimationFailed) when the closed-form start of the independent optimum cannot be found again.
+Result<Diagnosis> Diagnose(const Session& session, const CalibrationRecord& record,
+                           const std::vector<BoardObservation>& observations,
+                           const std::vector<CrossObservation>& crosses);
+
+inline constexpr const char* kDiagnosisSchema = "telestrain.mrcal/1";
+
+// mrcal.json; `made_from` names the inputs with their SHA-256.
+nlohmann::ordered_json DiagnosisJson(const Session& session, const CalibrationRecord& record,
+                                     const Diagnosis& diagnosis,
+                                     const std::map<std::string, std::string>& made_from);
+
+}  // namespace telestrain
