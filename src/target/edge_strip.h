@@ -1,13 +1,14 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <vector>
+
+#include "target/block_sums.h"
 
 namespace telestrain {
 
 // The pixels near one of a saddle's two edge lines and far from the other, where the saddle is the
-// one edge's blurred profile, and the sums of their least-squares problem. Sums are taken in eight
-// lanes in a fixed order, so every processor gives the same bits. Errors of the profile: 2e-7.
+// one edge's blurred profile, and the sums of their least-squares problem. Errors of the model:
+// 1e-6 of the grey levels.
 class EdgeStrip {
  public:
   // Order of the columns: a, gx, gy, c, cx, cy, x0, y0, the line's angle, log blur.
@@ -24,16 +25,14 @@ class EdgeStrip {
     double cost = 0;
   };
 
-  void Clear() { x_.clear(), y_.clear(), gray_.clear(), side_.clear(), weight_.clear(); }
-  // Pixels (x, y), (x + 1, y), .. on one side (+1, -1) of the other line.
-  void Append(double x, double y, double side, const float* gray, int count);
-  void Pad();  // after the last pixel
+  // The side (+1, -1) of the other line.
+  BlockPixels& pixels() { return pixels_; }
 
   // `linear`: a, gx, gy, c, cx, cy.
   Sums At(const Line& line, const Eigen::Matrix<double, 6, 1>& linear) const;
 
  private:
-  std::vector<double> x_, y_, gray_, side_, weight_;
+  BlockPixels pixels_;
 };
 
 }  // namespace telestrain

@@ -50,7 +50,7 @@ bool Minimise(const SaddleStart& start, SaddleWindow* window, SaddleParameters* 
     }
     if (!window->Holds(next)) window->Sort(next);
     const SaddleEquations trial = window->At(next);
-    if (!(trial.cost <= at->cost * (1 + 1e-7))) {
+    if (!(trial.cost <= at->cost * (1 + 1e-5))) {
       damping = std::max(1e-2, damping * 10);
       continue;
     }

@@ -27,42 +27,6 @@ void ClipToUnitBand(double offset, double slope, double* low, double* high) {
   *high = std::min(*high, std::max(a, b));
 }
 
-using Row = std::array<double, kParameters>;
-
-// One row of J and the model's value at a pixel near a line; (x, y) count from the origin.
-template <typename Lines>
-double ModelNearLine(const SaddleParameters& p, const Lines& lines, double x, double y, Row* row) {
-  const double dx = x - p[6], dy = y - p[7], scale = lines.inverse_blur;
-  const double h = (lines.normal_u.x() * dx + lines.normal_u.y() * dy) * scale;
-  const double k = (lines.normal_v.x() * dx + lines.normal_v.y() * dy) * scale;
-  const SaddleValue e = lines.saddle.Evaluate(h, k);
-  const double contrast = p[3] + p[4] * x + p[5] * y;
-  const double by_h = contrast * e.by_h, by_k = contrast * e.by_k, by_rho = contrast * e.by_rho;
-  const double h_turn = (lines.turn_u.x() * dx + lines.turn_u.y() * dy) * scale;
-  const double k_turn = (lines.turn_v.x() * dx + lines.turn_v.y() * dy) * scale;
-  *row = {1,
-          x,
-          y,
-          e.value,
-          e.value * x,
-          e.value * y,
-          -scale * (by_h * lines.normal_u.x() + by_k * lines.normal_v.x()),
-          -scale * (by_h * lines.normal_u.y() + by_k * lines.normal_v.y()),
-          by_h * h_turn + by_rho * lines.turn_u.dot(lines.normal_v),
-          by_k * k_turn + by_rho * lines.turn_v.dot(lines.normal_u),
-          -(by_h * h + by_k * k)};
-  return p[0] + p[1] * x + p[2] * y + contrast * e.value;
-}
-
-void AddRow(const Row& row, double residual, SaddleEquations* sums) {
-  for (int i = 0; i < kParameters; ++i) {
-    const double factor = row[static_cast<std::size_t>(i)];
-    double* column = sums->normal.data() + i * kParameters;  // lower triangle, column-major
-    for (int j = i; j < kParameters; ++j) column[j] += factor * row[static_cast<std::size_t>(j)];
-    sums->gradient[i] += factor * residual;
-  }
-}
-
 // The columns of a row where |normal . (x, y)| <= reach, cut to the span; (x, y) from the corner.
 struct Columns {
   int begin = 0, end = 0;
@@ -159,12 +123,11 @@ void SaddleWindow::SortRow(const RowSpan& row, const SaddleParameters& p, const 
     const Vector2d from_corner(x - p[6], dy);
     const double from_u = lines.normal_u.dot(from_corner), from_v = lines.normal_v.dot(from_corner);
     if (u && v) {
-      for (int k = 0; k < count; ++k)
-        middle_.push_back({x + k, y, static_cast<double>(gray[begin + k])});
+      middle_.pixels().Append(x, y, 1, gray + begin, count);
     } else if (u) {
-      strips_[0].Append(x, y, from_v > 0 ? 1 : -1, gray + begin, count);
+      strips_[0].pixels().Append(x, y, from_v > 0 ? 1 : -1, gray + begin, count);
     } else if (v) {
-      strips_[1].Append(x, y, from_u > 0 ? 1 : -1, gray + begin, count);
+      strips_[1].pixels().Append(x, y, from_u > 0 ? 1 : -1, gray + begin, count);
     } else {
       planes_[(from_u > 0) == (from_v > 0) ? 1 : 0].Add(x, y, gray + begin, count);
     }
@@ -174,11 +137,12 @@ void SaddleWindow::SortRow(const RowSpan& row, const SaddleParameters& p, const 
 void SaddleWindow::Sort(const SaddleParameters& parameters) {
   sorted_for_ = parameters;
   planes_ = {};
-  for (EdgeStrip& strip : strips_) strip.Clear();
-  middle_.clear();
+  for (EdgeStrip& strip : strips_) strip.pixels().Clear();
+  middle_.pixels().Clear();
   const Lines lines(parameters);
   for (const RowSpan& row : rows_) SortRow(row, parameters, lines);
-  for (EdgeStrip& strip : strips_) strip.Pad();
+  for (EdgeStrip& strip : strips_) strip.pixels().Pad();
+  middle_.pixels().Pad();
 }
 
 bool SaddleWindow::Holds(const SaddleParameters& parameters) const {
@@ -238,12 +202,12 @@ void SaddleWindow::AddStrip(int line, const SaddleParameters& p, const Lines& li
 
 void SaddleWindow::AddMiddle(const SaddleParameters& p, const Lines& lines,
                              SaddleEquations* sums) const {
-  Row row;
-  for (const Pixel& pixel : middle_) {
-    const double residual = pixel.gray - ModelNearLine(p, lines, pixel.x, pixel.y, &row);
-    AddRow(row, residual, sums);
-    sums->cost += residual * residual;
-  }
+  const EdgeCrossing::Lines at{p.segment<2>(6), lines.normal_u, lines.normal_v,
+                               lines.turn_u,    lines.turn_v,   lines.inverse_blur};
+  const auto middle = middle_.At(at, lines.saddle, p.head<kLinear>());
+  sums->normal += middle.normal;
+  sums->gradient += middle.gradient;
+  sums->cost += middle.cost;
 }
 
 SaddleEquations SaddleWindow::At(const SaddleParameters& parameters) const {

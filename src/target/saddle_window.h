@@ -6,6 +6,7 @@
 
 #include "base/gray_image.h"
 #include "session/session.h"
+#include "target/edge_crossing.h"
 #include "target/edge_strip.h"
 #include "target/saddle_fit.h"
 
@@ -52,9 +53,6 @@ class SaddleWindow {
     double gray_squares = 0;
     void Add(double x, double y, const float* gray, int count);
   };
-  struct Pixel {
-    double x, y, gray;
-  };
   struct Lines;
   void SortRow(const RowSpan& row, const SaddleParameters& parameters, const Lines& lines);
   void AddPlanes(const SaddleParameters& parameters, SaddleEquations* sums) const;
@@ -71,7 +69,7 @@ class SaddleWindow {
   SaddleParameters sorted_for_ = SaddleParameters::Zero();
   std::array<Plane, 2> planes_;  // E = -1, E = +1
   std::array<EdgeStrip, 2> strips_;
-  std::vector<Pixel> middle_;
+  EdgeCrossing middle_;
 };
 
 }  // namespace telestrain
