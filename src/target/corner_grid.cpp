@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <Eigen/QR>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <optional>
@@ -22,6 +23,8 @@ constexpr double kWindowShare = 0.47;
 constexpr double kLargestHalfWindow_px = 32;
 // The part of a half edge that the next edge's blur must leave free, in blurs.
 constexpr double kClearOfNextEdge = 4.5;
+// What candidates may be off.
+constexpr double kLargestCorrection_px = 1.0;
 constexpr double kLargestMove = 0.2;  // of a square, from the first estimate
 // From the grid's shape: in medians of the board's departures, which hold its lens's distortion,
 // and in standard deviations of the corner.
@@ -71,6 +74,37 @@ bool IsInside(const SaddleFit& fit, const PixelRegion& region) {
          p.y() < region.y + region.height - 1 - margin;
 }
 
+const SaddleFit* Find(const CornerGrid& grid, int i, int j) {
+  const auto found = grid.corners.find({i, j});
+  return found == grid.corners.end() ? nullptr : &found->second;
+}
+
+// Where the corner (i, j) continues the corners before it that were fitted, two along one axis or
+// three about a square; nothing without them.
+std::optional<Vector2d> Continue(const CornerGrid& grid, int i, int j) {
+  const auto at = [&](int di, int dj) { return Find(grid, i + di, j + dj); };
+  for (const auto& [a, b, c] :
+       {std::array{at(-1, 0), at(0, -1), at(-1, -1)}, std::array{at(1, -1), at(0, -1), at(1, -2)},
+        std::array{at(-1, 0), at(-1, 0), at(-2, 0)}, std::array{at(0, -1), at(0, -1), at(0, -2)}})
+    if (a && b && c) return a->point.pixel + b->point.pixel - c->point.pixel;
+  return std::nullopt;
+}
+
+// A start from the fitted neighbours, where it agrees with the candidate `seen`.
+SaddleStart StartLikeNeighbours(const CornerGrid& grid, const LatticeIndex& at,
+                                const SaddleStart& seen) {
+  SaddleStart start = seen;
+  const auto [i, j] = at;
+  const SaddleFit* like = Find(grid, i - 1, j);
+  if (!like) like = Find(grid, i, j - 1);
+  const auto place = Continue(grid, i, j);
+  if (!like || !place) return seen;
+  if ((*place - seen.pixel).norm() > kLargestCorrection_px) return seen;
+  start.pixel = *place;
+  start.angles_rad = Vector2d(like->angle_u_rad, like->angle_v_rad);
+  return start;
+}
+
 void FitPlaces(const GrayImage& image, const PixelRegion& region, const CornerLattice& lattice,
                CornerGrid* grid) {
   const Matrix2d to_squares = lattice.axes_px.inverse();
@@ -83,7 +117,7 @@ void FitPlaces(const GrayImage& image, const PixelRegion& region, const CornerLa
           HalfAxis(lattice.axes_px.col(0), Across_px(lattice.axes_px, 0), start.blur_px);
       start.half_axis_v_px =
           HalfAxis(lattice.axes_px.col(1), Across_px(lattice.axes_px, 1), start.blur_px);
-      const auto fit = FitSaddle(image, region, start);
+      const auto fit = FitSaddle(image, region, StartLikeNeighbours(*grid, {i, j}, start));
       if (!fit || !IsInside(*fit, region)) continue;
       const Vector2d move = to_squares * (fit->point.pixel - start.pixel);
       if (move.cwiseAbs().maxCoeff() > kLargestMove) continue;
@@ -189,9 +223,14 @@ double ClippedShare(const GrayImage& image, const CornerGrid& grid, bool bright)
     const int cx = static_cast<int>(middle.x()), cy = static_cast<int>(middle.y());
     if (cx < reach || cy < reach || cx >= image.width - reach || cy >= image.height - reach)
       continue;
-    for (int y = cy - reach; y <= cy + reach; ++y)
-      for (int x = cx - reach; x <= cx + reach; ++x, ++count)
-        clipped += bright ? image.At(x, y) >= ceiling : image.At(x, y) <= 0;
+    const int side = 2 * reach + 1;
+    for (int y = cy - reach; y <= cy + reach; ++y) {
+      const float* row =
+          image.pixels.data() + static_cast<std::ptrdiff_t>(y) * image.width + cx - reach;
+      clipped += static_cast<int>(std::count_if(
+          row, row + side, [=](float gray) { return bright ? gray >= ceiling : gray <= 0; }));
+    }
+    count += side * side;
   }
   return count > 0 ? clipped / static_cast<double>(count) : 0;
 }

@@ -14,8 +14,9 @@ using Eigen::Vector2d;
 
 constexpr double kSmallestSigma_gray = 0.3;  // rounding to whole grey levels: 1/sqrt(12)
 constexpr double kSmallestBlur_px = 0.25;    // below it a pixel grid cannot tell
-// Steps shrink quadratically, by the step over the blur: 1e-4 px are left.
-constexpr double kConvergedStep_px = 8e-3;
+// What a last step may leave of the corner's place, in blurs; noise leaves 1e-3 and more.
+constexpr double kConverged_blurs = 1e-4;
+constexpr double kConvergedBlur = 0.05;  // the square of such a step is left: 0.3 %
 constexpr int kIterations = 20;
 
 bool IsInside(const SaddleParameters& p, const SaddleStart& start) {
@@ -25,8 +26,19 @@ bool IsInside(const SaddleParameters& p, const SaddleStart& start) {
   return at.allFinite() && at.cwiseAbs().maxCoeff() < 0.75 && p[10] > -3 && p[10] < 4;
 }
 
-// Damped Gauss-Newton: full steps while the cost falls. The last step, below the tolerance, is
-// taken without another evaluation; what is left is a hundredth of it.
+// What a full Gauss-Newton step from `p` leaves of the place, in blurs. An edge's profile is odd
+// and its slope even: the move of an edge leaves its cube and its products with the relative errors
+// of the slope.
+double Left_blurs(const SaddleStart& start, const SaddleParameters& p,
+                  const SaddleParameters& step) {
+  const double extent_px = std::max(start.half_axis_u_px.norm(), start.half_axis_v_px.norm());
+  const double turn = step.segment<2>(8).cwiseAbs().maxCoeff();
+  const double move = (step.segment<2>(kLinear).norm() + extent_px * turn) * std::exp(-p[10]);
+  return move * (move * move + std::abs(step[10]) + std::abs(step[3] / p[3]));
+}
+
+// Damped Gauss-Newton: full steps while the cost falls. The last step is taken without another
+// evaluation.
 bool Minimise(const SaddleStart& start, SaddleWindow* window, SaddleParameters* p,
               SaddleEquations* at) {
   if (window->pixels() < 2 * kParameters) return false;
@@ -42,7 +54,7 @@ bool Minimise(const SaddleStart& start, SaddleWindow* window, SaddleParameters* 
     next[10] = std::max(next[10], std::log(kSmallestBlur_px));
     if (!IsInside(next, start)) return false;
     const bool is_small =
-        step.segment<2>(kLinear).norm() < kConvergedStep_px && std::abs(step[10]) < 0.02;
+        Left_blurs(start, *p, step) < kConverged_blurs && std::abs(step[10]) < kConvergedBlur;
     if (is_small && damping < 0.01) {
       *p = next;
       at->cost -= step.dot(at->gradient);  // what a full step gains
@@ -67,8 +79,9 @@ std::optional<SaddleFit> FitSaddle(const GrayImage& image, const PixelRegion& re
                                    const SaddleStart& start) {
   SaddleWindow window(image, region, start);
   SaddleParameters p = SaddleParameters::Zero();
-  p[8] = std::atan2(start.half_axis_u_px.y(), start.half_axis_u_px.x());
-  p[9] = std::atan2(start.half_axis_v_px.y(), start.half_axis_v_px.x());
+  const auto angle = [](const Vector2d& axis) { return std::atan2(axis.y(), axis.x()); };
+  p.segment<2>(8) =
+      start.angles_rad.value_or(Vector2d(angle(start.half_axis_u_px), angle(start.half_axis_v_px)));
   p[10] = std::log(start.blur_px);
   window.Sort(p);
   window.StartLinear(&p);

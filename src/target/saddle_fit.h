@@ -16,6 +16,8 @@ struct SaddleStart {
   Eigen::Vector2d half_axis_u_px = Eigen::Vector2d::UnitX();
   Eigen::Vector2d half_axis_v_px = Eigen::Vector2d::UnitY();
   double blur_px = 1.2;
+  // Directions of the two lines when they are better known than by the half axes.
+  std::optional<Eigen::Vector2d> angles_rad;
 };
 
 // A corner measured by maximum likelihood.
