@@ -19,6 +19,11 @@ TELESTRAIN_WIDE void AddProducts(const BlockSums::Rows& block, int rows,
 
 }  // namespace
 
+void BlockPixels::Reserve(int count) {
+  for (auto* values : {&x, &y, &gray, &side})
+    values->reserve(static_cast<std::size_t>(count + kBlock));
+}
+
 void BlockPixels::Append(double first_x, double at_y, double at_side, const float* levels,
                          int count) {
   const std::size_t first = x.size(), size = first + static_cast<std::size_t>(count);

@@ -14,6 +14,7 @@ struct BlockPixels {
 
   int Blocks() const { return static_cast<int>(x.size()) / kBlock; }
   void Clear() { x.clear(), y.clear(), gray.clear(), side.clear(); }
+  void Reserve(int count);
   // Pixels (first_x, at_y), (first_x + 1, at_y), ..
   void Append(double first_x, double at_y, double at_side, const float* levels, int count);
   void Pad();  // after the last pixel, with side 0

@@ -83,9 +83,10 @@ double Across(int sample) { return kReach * (2.0 * sample / (kAcross - 1) - 1); 
 double Interpolate(const GrayImage& image, const Vector2d& p) {
   const int x = static_cast<int>(p.x()), y = static_cast<int>(p.y());
   const double fx = p.x() - x, fy = p.y() - y;
-  const auto gray = [&](int u, int v) { return static_cast<double>(image.At(u, v)); };
-  return (1 - fy) * ((1 - fx) * gray(x, y) + fx * gray(x + 1, y)) +
-         fy * ((1 - fx) * gray(x, y + 1) + fx * gray(x + 1, y + 1));
+  const float* top = image.pixels.data() + static_cast<std::ptrdiff_t>(y) * image.width + x;
+  const float* bottom = top + image.width;
+  return (1 - fy) * ((1 - fx) * static_cast<double>(top[0]) + fx * static_cast<double>(top[1])) +
+         fy * ((1 - fx) * static_cast<double>(bottom[0]) + fx * static_cast<double>(bottom[1]));
 }
 
 bool IsSampled(const PixelRegion& region, const Vector2d& p) {

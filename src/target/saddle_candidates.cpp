@@ -22,22 +22,41 @@ struct SmoothedRegion {
   Vector2d SensorPixel(const Vector2d& reduced) const { return origin_px + reduction * reduced; }
 };
 
+// The region averaged over squares of n > 1 pixels; the last columns and rows that fill none are
+// left out.
+cv::Mat1f Reduce(const cv::Mat1f& view, int n) {
+  cv::Mat1f reduced(view.rows / n, view.cols / n);
+  std::vector<float> row(static_cast<std::size_t>(view.cols));
+  const float share = 1.0F / static_cast<float>(n * n);
+  for (int y = 0; y < reduced.rows; ++y) {
+    float* __restrict sums = row.data();
+    std::copy_n(view[y * n], view.cols, sums);
+    for (int i = 1; i < n; ++i) {
+      const float* __restrict next = view[y * n + i];
+      for (int x = 0; x < view.cols; ++x) sums[x] += next[x];
+    }
+    float* __restrict out = reduced[y];
+    for (int x = 0; x < reduced.cols; ++x) {
+      const float* group = sums + static_cast<std::ptrdiff_t>(x) * n;
+      float sum = group[0] + group[1];
+      for (int i = 2; i < n; ++i) sum += group[i];
+      out[x] = sum * share;
+    }
+  }
+  return reduced;
+}
+
 SmoothedRegion Smooth(const GrayImage& image, const SaddleSearch& search) {
   const PixelRegion& region = search.region;
   // OpenCV wants a non-const pointer; the data are only read.
   const cv::Mat1f whole(image.height, image.width, const_cast<float*>(image.pixels.data()));
-  const cv::Mat view = whole(cv::Rect(region.x, region.y, region.width, region.height));
+  const cv::Mat1f view = whole(cv::Rect(region.x, region.y, region.width, region.height));
   SmoothedRegion smoothed;
   const int n = smoothed.reduction = search.reduction;
   smoothed.origin_px = Vector2d(region.x, region.y).array() + 0.5 * (n - 1);
-  const cv::Size size(std::max(1, region.width / n), std::max(1, region.height / n));
-  cv::Mat reduced = view;
-  if (n > 1) {
-    const cv::Mat even = view(cv::Rect(0, 0, std::min(size.width * n, region.width),
-                                       std::min(size.height * n, region.height)));
-    cv::resize(even, reduced, size, 0, 0, cv::INTER_AREA);
-  }
-  cv::GaussianBlur(reduced, smoothed.gray, cv::Size(), search.smoothing_px, search.smoothing_px,
+  if (region.width < n || region.height < n) return smoothed;
+  cv::GaussianBlur(n > 1 ? Reduce(view, n) : view, smoothed.gray, cv::Size(), search.smoothing_px,
+                   search.smoothing_px,
                    cv::BORDER_REPLICATE | cv::BORDER_ISOLATED);  // other views stay out of it
   return smoothed;
 }
@@ -77,23 +96,48 @@ struct Peak {
   int x = 0, y = 0;
 };
 
-// Maxima over 5 x 5 pixels, strongest first; of equal ones the upper left comes first.
-std::vector<Peak> Peaks(const cv::Mat1f& strength, const SaddleSearch& search) {
-  cv::Mat1f highest;
-  cv::dilate(strength, highest, cv::Mat::ones(5, 5, CV_8U));
+bool IsHighest(const cv::Mat1f& strength, int x, int y) {
+  const float own = strength(y, x);
+  for (int v = std::max(0, y - 2); v <= std::min(strength.rows - 1, y + 2); ++v) {
+    const float* row = strength[v];
+    for (int u = std::max(0, x - 2); u <= std::min(strength.cols - 1, x + 2); ++u)
+      if (row[u] > own) return false;
+  }
+  return true;
+}
+
+// Positive maxima over 5 x 5 pixels that are not below `least`, from the upper left on.
+std::vector<Peak> Maxima(const cv::Mat1f& strength, float least) {
   std::vector<Peak> peaks;
-  for (int y = 1; y + 1 < strength.rows; ++y)
-    for (int x = 1; x + 1 < strength.cols; ++x)
-      if (strength(y, x) > 0 && strength(y, x) >= highest(y, x))
-        peaks.push_back({strength(y, x), x, y});
+  for (int y = 1; y + 1 < strength.rows; ++y) {
+    const float *above = strength[y - 1], *row = strength[y], *below = strength[y + 1];
+    for (int x = 1; x + 1 < strength.cols; ++x) {
+      const float own = row[x];
+      if (own < least || own <= 0) continue;
+      if (own >= row[x - 1] && own >= row[x + 1] && own >= above[x] && own >= below[x] &&
+          IsHighest(strength, x, y))
+        peaks.push_back({own, x, y});
+    }
+  }
+  return peaks;
+}
+
+// The maxima that are strong enough, strongest first; of equal ones the upper left comes first.
+std::vector<Peak> Peaks(const cv::Mat1f& strength, const SaddleSearch& search) {
+  const float share = static_cast<float>(search.least_share);
+  const auto wanted = static_cast<std::size_t>(search.expected_count);
+  // Noise has many maxima: those far below the strongest are passed over where others suffice.
+  double strongest = 0;
+  cv::minMaxLoc(strength, nullptr, &strongest);
+  std::vector<Peak> peaks = Maxima(strength, share * static_cast<float>(strongest));
+  if (peaks.size() < wanted) peaks = Maxima(strength, 0);
   if (peaks.empty()) return peaks;
-  const auto rank = std::min(peaks.size(), static_cast<std::size_t>(search.expected_count)) - 1;
+  const auto rank = std::min(peaks.size(), wanted) - 1;
   const auto stronger = [](const Peak& a, const Peak& b) { return a.strength > b.strength; };
   std::vector<Peak> ranked = peaks;
   std::nth_element(ranked.begin(), ranked.begin() + static_cast<std::ptrdiff_t>(rank), ranked.end(),
                    stronger);
-  const double least = search.least_share * static_cast<double>(ranked[rank].strength);
-  std::erase_if(peaks, [least](const Peak& p) { return static_cast<double>(p.strength) < least; });
+  peaks = Maxima(strength, share * ranked[rank].strength);
   std::stable_sort(peaks.begin(), peaks.end(), stronger);
   return peaks;
 }

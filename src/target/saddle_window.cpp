@@ -44,6 +44,33 @@ Columns NearLine(const Vector2d& normal, double dy, double reach, double corner_
   return near;
 }
 
+struct GraySums {
+  double gray = 0, gray_i = 0, gray_squares = 0;
+};
+
+// Over pixels i = 0, 1, ..; in lanes and a fixed order.
+TELESTRAIN_WIDE GraySums SumsOf(const float* __restrict pixels, int count) {
+  constexpr int kLanes = 4;
+  double g[kLanes] = {}, gi[kLanes] = {}, gg[kLanes] = {}, at[kLanes] = {0, 1, 2, 3};
+  int i = 0;
+  for (; i + kLanes <= count; i += kLanes)
+    for (int l = 0; l < kLanes; ++l) {
+      const double level = static_cast<double>(pixels[i + l]);
+      g[l] += level;
+      gi[l] += level * at[l];
+      gg[l] += level * level;
+      at[l] += kLanes;
+    }
+  for (; i < count; ++i) {
+    const double level = static_cast<double>(pixels[i]);
+    g[0] += level;
+    gi[0] += level * i;
+    gg[0] += level * level;
+  }
+  const auto total = [](const double(&l)[kLanes]) { return (l[0] + l[1]) + (l[2] + l[3]); };
+  return {total(g), total(gi), total(gg)};
+}
+
 }  // namespace
 
 // The lines' normals, their derivatives by the angles, and the saddle.
@@ -86,13 +113,8 @@ SaddleWindow::SaddleWindow(const GrayImage& image, const PixelRegion& region,
 }
 
 void SaddleWindow::Plane::Add(double x, double y, const float* pixels, int count) {
-  double g = 0, gx = 0, gg = 0;
-  for (int i = 0; i < count; ++i) {
-    const double level = static_cast<double>(pixels[i]);
-    g += level;
-    gx += level * (x + i);
-    gg += level * level;
-  }
+  const GraySums sums = SumsOf(pixels, count);
+  const double g = sums.gray, gx = x * g + sums.gray_i, gg = sums.gray_squares;
   const double n = count, last = count - 1;
   const double sum_x = n * x + 0.5 * n * last;
   const double sum_xx = n * x * x + x * n * last + n * last * (2 * n - 1) / 6;
@@ -137,12 +159,12 @@ void SaddleWindow::SortRow(const RowSpan& row, const SaddleParameters& p, const 
 void SaddleWindow::Sort(const SaddleParameters& parameters) {
   sorted_for_ = parameters;
   planes_ = {};
-  for (EdgeStrip& strip : strips_) strip.pixels().Clear();
-  middle_.pixels().Clear();
+  for (BlockPixels* pixels : {&strips_[0].pixels(), &strips_[1].pixels(), &middle_.pixels()})
+    pixels->Clear(), pixels->Reserve(pixels_);
   const Lines lines(parameters);
   for (const RowSpan& row : rows_) SortRow(row, parameters, lines);
-  for (EdgeStrip& strip : strips_) strip.pixels().Pad();
-  middle_.pixels().Pad();
+  for (BlockPixels* pixels : {&strips_[0].pixels(), &strips_[1].pixels(), &middle_.pixels()})
+    pixels->Pad();
 }
 
 bool SaddleWindow::Holds(const SaddleParameters& parameters) const {
