@@ -7,6 +7,8 @@
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
+#include "target/reduced_region.h"
+
 namespace telestrain {
 namespace {
 
@@ -22,42 +24,16 @@ struct SmoothedRegion {
   Vector2d SensorPixel(const Vector2d& reduced) const { return origin_px + reduction * reduced; }
 };
 
-// The region averaged over squares of n > 1 pixels; the last columns and rows that fill none are
-// left out.
-cv::Mat1f Reduce(const cv::Mat1f& view, int n) {
-  cv::Mat1f reduced(view.rows / n, view.cols / n);
-  std::vector<float> row(static_cast<std::size_t>(view.cols));
-  const float share = 1.0F / static_cast<float>(n * n);
-  for (int y = 0; y < reduced.rows; ++y) {
-    float* __restrict sums = row.data();
-    std::copy_n(view[y * n], view.cols, sums);
-    for (int i = 1; i < n; ++i) {
-      const float* __restrict next = view[y * n + i];
-      for (int x = 0; x < view.cols; ++x) sums[x] += next[x];
-    }
-    float* __restrict out = reduced[y];
-    for (int x = 0; x < reduced.cols; ++x) {
-      const float* group = sums + static_cast<std::ptrdiff_t>(x) * n;
-      float sum = group[0] + group[1];
-      for (int i = 2; i < n; ++i) sum += group[i];
-      out[x] = sum * share;
-    }
-  }
-  return reduced;
-}
-
 SmoothedRegion Smooth(const GrayImage& image, const SaddleSearch& search) {
   const PixelRegion& region = search.region;
-  // OpenCV wants a non-const pointer; the data are only read.
-  const cv::Mat1f whole(image.height, image.width, const_cast<float*>(image.pixels.data()));
-  const cv::Mat1f view = whole(cv::Rect(region.x, region.y, region.width, region.height));
   SmoothedRegion smoothed;
   const int n = smoothed.reduction = search.reduction;
   smoothed.origin_px = Vector2d(region.x, region.y).array() + 0.5 * (n - 1);
-  if (region.width < n || region.height < n) return smoothed;
-  cv::GaussianBlur(n > 1 ? Reduce(view, n) : view, smoothed.gray, cv::Size(), search.smoothing_px,
-                   search.smoothing_px,
-                   cv::BORDER_REPLICATE | cv::BORDER_ISOLATED);  // other views stay out of it
+  GrayImage reduced = ReduceRegion(image, region, n);
+  if (reduced.pixels.empty()) return smoothed;
+  const cv::Mat1f levels(reduced.height, reduced.width, reduced.pixels.data());
+  cv::GaussianBlur(levels, smoothed.gray, cv::Size(), search.smoothing_px, search.smoothing_px,
+                   cv::BORDER_REPLICATE);
   return smoothed;
 }
 
