@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/check.h"
+#include "base/numbers.h"
 #include "target/board_ends.h"
 #include "target/board_labels.h"
 #include "target/corner_grid.h"
@@ -70,6 +71,26 @@ LabelledGrid Examine(const GrayImage& image, const CornerLattice& lattice,
   return board;
 }
 
+// What a view without a grid shows.
+std::string WhyNoGrid(const GrayImage& image, const PixelRegion& region) {
+  std::vector<float> levels;
+  for (int y = region.y; y < region.y + region.height; y += 3)
+    for (int x = region.x; x < region.x + region.width; x += 3) levels.push_back(image.At(x, y));
+  std::sort(levels.begin(), levels.end());
+  const auto at = [&](double share) {
+    return static_cast<double>(
+        levels[static_cast<std::size_t>(share * static_cast<double>(levels.size() - 1))]);
+  };
+  const auto full = std::count(levels.begin(), levels.end(), image.max_gray);
+  const double full_percent = 100 * static_cast<double>(full) / static_cast<double>(levels.size());
+  std::string reason = "no board in the view: 98 % of its grey levels lie from " +
+                       FormatFixed(at(0.01), 0) + " to " + FormatFixed(at(0.99), 0) + " of " +
+                       FormatFixed(static_cast<double>(image.max_gray), 0);
+  if (full_percent >= 1)
+    reason += ", " + FormatFixed(full_percent, 0) + " % of its pixels are saturated";
+  return reason;
+}
+
 std::vector<CornerLattice> FindGrids(const GrayImage& image, const TargetSearch& search) {
   auto lattices =
       FindLattices(FindSaddles(image, BoardSaddles(search)), 1.5 * LongestSide_px(search));
@@ -85,8 +106,8 @@ std::vector<CornerLattice> FindGrids(const GrayImage& image, const TargetSearch&
 // The grid that is the board. When none is, or more than one, only the reason is set.
 LabelledGrid FindBoard(const GrayImage& image, const TargetSearch& search) {
   std::vector<LabelledGrid> boards;
-  std::string reason = "no board in the view";
   const auto lattices = FindGrids(image, search);
+  std::string reason = lattices.empty() ? WhyNoGrid(image, search.region) : "";
   for (std::size_t i = 0; i < std::min(lattices.size(), kMostGrids); ++i) {
     LabelledGrid board = Examine(image, lattices[i], search);
     if (i == 0) reason = board.labels.refused_because;  // of the largest grid

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cstdio>
 #include <iostream>
 
 #include "random_view.h"
@@ -175,13 +176,25 @@ TEST(DetectBoard, RefusesASaturatedBoard) {
       std::string::npos);
 }
 
-TEST(DetectBoard, RejectsAnEmptyView) {
+TEST(DetectBoard, RejectsAnEmptyViewAndSaysWhatItShows) {
   const RandomView view = FrontalView();
   for (const double noise : {0.0, 5.0, 30.0}) {
     GrayImage image = testing::Blank(610, 460, 100);
     testing::AddNoise(&image, noise, 7);
-    EXPECT_EQ(DetectBoard(image, view.search).rejected_because, "no board in the view");
+    // 98 % of normal numbers lie within 2.33 standard deviations; whole levels.
+    const auto reason = DetectBoard(image, view.search).rejected_because;
+    int low = 0, high = 0;
+    ASSERT_EQ(std::sscanf(reason.c_str(),
+                          "no board in the view: 98 %% of its grey levels lie from %d to %d of 255",
+                          &low, &high),
+              2)
+        << reason;
+    EXPECT_NEAR(low, 100 - 2.33 * noise, 1 + 0.05 * noise);
+    EXPECT_NEAR(high, 100 + 2.33 * noise, 1 + 0.05 * noise);
   }
+  GrayImage bright = testing::Blank(610, 460, 255);
+  const auto reason = DetectBoard(bright, view.search).rejected_because;
+  EXPECT_NE(reason.find("100 % of its pixels are saturated"), std::string::npos) << reason;
 }
 
 TEST(DetectBoard, RejectsABoardFarOutOfFocus) {
