@@ -17,7 +17,7 @@ class DiagnoseCommand : public Command {
     app.add_option("RESULTS", results_, "results folder with a calibration")->required();
   }
   Result<int> Run(Console& console) override {
-    TELESTRAIN_RETURN_IF_ERROR(DiagnoseStep(results_, console));
+    TELESTRAIN_RETURN_IF_ERROR(DiagnoseStep(results_, true, console));
     return 0;
   }
 

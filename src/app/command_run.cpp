@@ -34,7 +34,7 @@ class RunCommand : public Command {
                                 OpenSession(arguments_.session, out, corners_));
     TELESTRAIN_RETURN_IF_ERROR(DetectStep(session, out, corners_, console));
     TELESTRAIN_RETURN_IF_ERROR(CalibrateStep(session, out, choices, console));
-    TELESTRAIN_RETURN_IF_ERROR(DiagnoseStep(out, console));
+    TELESTRAIN_RETURN_IF_ERROR(DiagnoseStep(out, false, console));
     TELESTRAIN_RETURN_IF_ERROR(VerifyStep(session, out, console));
     TELESTRAIN_RETURN_IF_ERROR(MeasureStep(session, out, console));
     TELESTRAIN_RETURN_IF_ERROR(RenderStep(out, console));

@@ -64,15 +64,15 @@ std::vector<Line> ResidualLines(const Diagnosis& diagnosis) {
   };
   std::size_t marked = 0;
   for (const OutlierPass& pass : diagnosis.outlier_replay) marked += pass.marked.size();
-  return {{"residuals, RMS of a coordinate", Pixels(summary.rms_per_scalar_px),
-           "expected " + Pixels(diagnosis.expected_rms_px), ""},
-          {"  as large as stated (chi-square)", FormatFixed(noise.chi_square.sigma0, 3),
-           "expected 1", p(noise.chi_square.p_value)},
-          {"  normally distributed", FormatFixed(noise.normality.statistic, 2), "Anderson-Darling",
-           p(noise.normality.p_value)},
-          {"  unlike their neighbours (Moran)", "", "", p(noise.SmallestSpatialP())},
-          {"  steady over the images", "", "", p(noise.SmallestTrendP())},
-          {"  outliers by mrcal's rule", std::to_string(marked), "", ""}};
+  return {
+      {"residuals, RMS of a coordinate", Pixels(summary.rms_per_scalar_px),
+       "expected " + Pixels(diagnosis.expected_rms_px), ""},
+      {"  over the corners' stated noise", FormatFixed(noise.chi_square.sigma0, 3), "expected 1",
+       p(noise.chi_square.p_value) + " (chi-square)"},
+      {"  normally distributed", "", "", p(noise.normality.p_value) + " (Anderson-Darling)"},
+      {"  independent of their neighbours", "", "", p(noise.SmallestSpatialP()) + " (Moran's I)"},
+      {"  steady over the images", "", "", p(noise.SmallestTrendP()) + " (trend)"},
+      {"  outliers by mrcal's rule", std::to_string(marked), "", ""}};
 }
 
 std::vector<Line> PinholeLines(const PinholeComparison& pinhole) {
@@ -96,10 +96,14 @@ void SayFindings(const std::vector<PatternFinding>& findings, Console& console) 
   }
 }
 
-void SayDiagnosis(const Diagnosis& diagnosis, Console& console) {
-  console.Say("diagnose   " + diagnosis.verdict.text);
-  SayFindings(diagnosis.verdict.findings, console);
-  SayFindings(diagnosis.left_out, console);
+std::string OptimumText(const IndependentOptimum& optimum) {
+  const double largest_px =
+      std::max(optimum.max_residual_difference_px, optimum.evaluated_max_residual_difference_px);
+  return optimum.agrees() ? "mrcal agrees to " + Pixels(largest_px) + "."
+                          : "mrcal DISAGREES by " + Pixels(largest_px) + ".";
+}
+
+void SayTables(const Diagnosis& diagnosis, Console& console) {
   std::vector<Line> lines = ResidualLines(diagnosis);
   const auto append = [&](const std::vector<Line>& more) {
     lines.insert(lines.end(), more.begin(), more.end());
@@ -107,19 +111,26 @@ void SayDiagnosis(const Diagnosis& diagnosis, Console& console) {
   if (diagnosis.optimum) append(OptimumLines(*diagnosis.optimum));
   if (diagnosis.pinhole) append(PinholeLines(*diagnosis.pinhole));
   SayTable(lines, console);
+}
+
+void SayDiagnosis(const Diagnosis& diagnosis, bool with_table, Console& console) {
+  console.Say("diagnose   " + diagnosis.verdict.text +
+              (diagnosis.optimum ? " " + OptimumText(*diagnosis.optimum) : ""));
+  SayFindings(diagnosis.verdict.findings, console);
+  SayFindings(diagnosis.left_out, console);
+  if (with_table) SayTables(diagnosis, console);
   if (!diagnosis.optimum)
     console.Warn("not checked against mrcal: " + diagnosis.optimum_missing_because);
   if (!diagnosis.pinhole)
     console.Warn("not compared with pinhole cameras: " + diagnosis.pinhole_missing_because);
   if (diagnosis.optimum && !diagnosis.optimum->agrees())
     console.Warn(
-        "mrcal and this program disagree: do not use this calibration before the reason "
-        "is known");
+        "mrcal and this program disagree: do not use this calibration before the reason is known");
 }
 
 }  // namespace
 
-Status DiagnoseStep(const fs::path& results, Console& console) {
+Status DiagnoseStep(const fs::path& results, bool with_table, Console& console) {
   TELESTRAIN_RETURN_IF_ERROR(RequireConsistent(results));
   TELESTRAIN_ASSIGN_OR_RETURN(const Session session, RecordedSession(results));
   TELESTRAIN_ASSIGN_OR_RETURN(const CalibrationRecord record,
@@ -136,7 +147,7 @@ Status DiagnoseStep(const fs::path& results, Console& console) {
       HashesOf(results, {"calibration.json", "residuals.csv", "detection.json"}));
   TELESTRAIN_RETURN_IF_ERROR(
       WriteJson(results / "mrcal.json", DiagnosisJson(session, record, diagnosis, made_from)));
-  SayDiagnosis(diagnosis, console);
+  SayDiagnosis(diagnosis, with_table, console);
   return {};
 }
 
