@@ -46,7 +46,7 @@ TEST_F(RunBytes, AreThoseOfTheStepsOneByOne) {
     const ProgramRun run = RunTelestrain({verb, SmallSession().string(), "--out", out});
     ASSERT_EQ(run.exit_code, 0) << run.err;
   }
-  for (const char* verb : {"render", "report"}) {
+  for (const char* verb : {"diagnose", "render", "report"}) {
     const ProgramRun run = RunTelestrain({verb, out});
     ASSERT_EQ(run.exit_code, 0) << run.err;
   }

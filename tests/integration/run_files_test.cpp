@@ -97,6 +97,7 @@ TEST_F(RunFiles, JsonFilesNameTheirSchemaAndWhatTheyWereMadeFrom) {
       {"calibration",
        {"made_from", "sensor", "lens", "views", "poses", "rejected", "reprojection",
         "stage_decision", "model_tests", "gauge", "covariance"}},
+      {"mrcal", {"made_from", "independent_optimum", "residuals", "pinhole"}},
       {"ruler", {"made_from", "nominal_length_mm", "images", "summary", "budget"}},
       {"strain",
        {"made_from", "pipe", "options", "base_length_mm", "states", "comparison", "budget"}},
@@ -113,6 +114,22 @@ TEST_F(RunFiles, JsonFilesNameTheirSchemaAndWhatTheyWereMadeFrom) {
   for (const auto& view : calibration.at("views"))
     for (const char* key : {"name", "image_x_in_array", "image_y_in_array", "offset_px"})
       EXPECT_TRUE(view.contains(key)) << key;
+}
+
+// On exact models of the same corners both programs find the same minimum to the last digits.
+TEST_F(RunFiles, MrcalAgreesAndTheResidualsAreNoise) {
+  const auto json = ResultJson("mrcal.json");
+  const auto& optimum = json.at("independent_optimum");
+  EXPECT_EQ(optimum.at("agrees"), true);
+  for (const char* key : {"max_residual_difference_px", "evaluated_max_residual_difference_px"})
+    EXPECT_LT(optimum.at(key).get<double>(), 1e-6) << key;
+  EXPECT_LT(optimum.at("max_magnification_difference").get<double>(), 1e-8);
+  EXPECT_LT(optimum.at("max_rotation_difference_rad").get<double>(), 1e-8);
+  EXPECT_EQ(json.at("residuals").at("verdict").at("kind"), "noise");
+  EXPECT_EQ(json.at("residuals").at("corners"),
+            ResultJson("calibration.json").at("reprojection").at("corners_used"));
+  EXPECT_NEAR(json.at("residuals").at("rms_px").get<double>(),
+              ResultJson("calibration.json").at("reprojection").at("rms_px").get<double>(), 1e-9);
 }
 
 TEST_F(RunFiles, TheCovarianceIsSquareAndOfTheNamedParameters) {

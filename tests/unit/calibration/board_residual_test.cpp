@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <numeric>
 #include <vector>
 
 #include "unit/calibration/synthetic_array.h"
@@ -122,6 +123,22 @@ TEST(BoardResidual, JacobiansEqualNumericDerivatives) {
   }
 }
 
+// The condensed residuals and their derivatives, as Ceres gets them.
+Eigen::MatrixXd CondensedJacobian(const Residual& residual, const State& state,
+                                  Eigen::VectorXd& condensed) {
+  const auto pointers = state.Pointers();
+  const Eigen::Index rows = residual.num_residuals();
+  condensed.resize(rows);
+  std::vector<Eigen::Matrix<double, -1, -1, Eigen::RowMajor>> blocks;
+  std::vector<double*> block_pointers;
+  for (const int size : kSizes) blocks.emplace_back(rows, size);
+  for (auto& block : blocks) block_pointers.push_back(block.data());
+  EXPECT_TRUE(residual.Evaluate(pointers.data(), condensed.data(), block_pointers.data()));
+  Eigen::MatrixXd jacobian(rows, std::accumulate(std::begin(kSizes), std::end(kSizes), 0));
+  jacobian << blocks[0], blocks[1], blocks[2], blocks[3], blocks[4];
+  return jacobian;
+}
+
 // The rows that Ceres gets have the cost, gradient and Gauss-Newton matrix of all residuals; also
 // of a lens so nearly perfect that its columns depend on each other to the last digits but one.
 TEST(BoardResidual, CondensedRowsStandForAllResiduals) {
@@ -136,15 +153,8 @@ TEST(BoardResidual, CondensedRowsStandForAllResiduals) {
     const auto pointers = state.Pointers();
     Eigen::VectorXd all;
     const Eigen::MatrixXd jacobian = FullJacobian(residual, state, all);
-    const Eigen::Index rows = residual.num_residuals();
-    Eigen::VectorXd condensed(rows);
-    std::vector<Eigen::Matrix<double, -1, -1, Eigen::RowMajor>> blocks;
-    std::vector<double*> block_pointers;
-    for (const int size : kSizes) blocks.emplace_back(rows, size);
-    for (auto& block : blocks) block_pointers.push_back(block.data());
-    ASSERT_TRUE(residual.Evaluate(pointers.data(), condensed.data(), block_pointers.data()));
-    Eigen::MatrixXd condensed_jacobian(rows, jacobian.cols());
-    condensed_jacobian << blocks[0], blocks[1], blocks[2], blocks[3], blocks[4];
+    Eigen::VectorXd condensed;
+    const Eigen::MatrixXd condensed_jacobian = CondensedJacobian(residual, state, condensed);
     const double loss = residual.Loss(pointers.data());
     const Eigen::VectorXd scale = jacobian.colwise().norm().transpose();
     // Sums of 46 products, pivots down to the rounding that the factor drops.
@@ -162,7 +172,7 @@ TEST(BoardResidual, CondensedRowsStandForAllResiduals) {
         EXPECT_NEAR(normal_of_condensed(i, j), normal(i, j),
                     1e-10 * (1e-300 + scale(i) * scale(j)));
     }
-    Eigen::VectorXd cost_only(rows);
+    Eigen::VectorXd cost_only(residual.num_residuals());
     ASSERT_TRUE(residual.Evaluate(pointers.data(), cost_only.data(), nullptr));
     EXPECT_NEAR(cost_only.squaredNorm(), loss, 1e-12 * loss);
   }
