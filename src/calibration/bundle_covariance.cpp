@@ -76,6 +76,37 @@ Eigen::MatrixXd Symmetric(const Eigen::MatrixXd& matrix) {
   return 0.5 * (matrix + matrix.transpose());
 }
 
+// The mean motion of the poses is `own errors - response * globals`.
+struct MeanMotion {
+  Eigen::MatrixXd response;  // 6 x globals of the solver
+  Eigen::Matrix<double, 6, 6> cov_of_own_errors;
+};
+
+MeanMotion MeanMotionOf(const BundleBlocks& blocks, const BundleSystem& system) {
+  std::vector<Eigen::MatrixXd> of_groups;  // 6 x numbers of the group's poses
+  for (const PoseGroup& group : blocks.groups) {
+    Eigen::MatrixXd& motion =
+        of_groups.emplace_back(Eigen::MatrixXd::Zero(6, static_cast<Eigen::Index>(group.Size())));
+    for (Eigen::Index at = 0; at < motion.cols(); at += kPoseSize) {
+      const Eigen::Map<const Eigen::Vector3d> turn(group.values + at),
+          origin(group.values + at + 3);
+      motion.block<3, 3>(0, at) = LeftJacobian(turn);
+      motion.block<3, 3>(3, at) = Skew(origin) * LeftJacobian(turn);
+      motion.block<3, 3>(3, at + 3).setIdentity();
+    }
+    motion /= static_cast<double>(blocks.place_of_image.size());
+  }
+  MeanMotion mean{Eigen::MatrixXd::Zero(6, system.global.cols()),
+                  Eigen::Matrix<double, 6, 6>::Zero()};
+  for (std::size_t g = 0; g < of_groups.size(); ++g) {
+    const GroupSystem& group = system.groups[g];
+    mean.response += of_groups[g].lazyProduct(group.coupling);
+    const Eigen::MatrixXd half = of_groups[g].lazyProduct(group.block);
+    mean.cov_of_own_errors += half.lazyProduct(of_groups[g].transpose());
+  }
+  return mean;
+}
+
 }  // namespace
 
 Result<BundleInformation> InformationOf(const CalibrationData& data, const ArrayState& state,
@@ -154,6 +185,27 @@ Result<BundleCovariance> CovarianceOf(const CalibrationData& data, const ArraySt
                                         named.topLeftCorner(n, n).transpose());
   PoseCovariances(blocks, system, joint, covariance);
   return covariance;
+}
+
+Result<MeanMotionCovariance> CovarianceWithMeanMotion(const CalibrationData& data,
+                                                      const ArrayState& state,
+                                                      const BundleOptions& options, double sigma0) {
+  BundleBlocks blocks(data, state, options);
+  TELESTRAIN_ASSIGN_OR_RETURN(const BundleSystem system,
+                              EliminatePoses(data, state, options, sigma0, blocks));
+  TELESTRAIN_ASSIGN_OR_RETURN(const Eigen::MatrixXd noise, InverseOf(system, system.adjusted));
+  const MeanMotion mean = MeanMotionOf(blocks, system);
+  const Eigen::Index n = system.array_size;
+  Eigen::MatrixXd named_from_globals(n + 6, system.global.cols());
+  named_from_globals << system.named_from_solver.topRows(n), -mean.response;
+  const auto with_motion = [&](const Eigen::MatrixXd& of_globals) {
+    Eigen::MatrixXd cov = named_from_globals * of_globals * named_from_globals.transpose();
+    cov.bottomRightCorner<6, 6>() += mean.cov_of_own_errors;
+    return Symmetric(cov);
+  };
+  Eigen::MatrixXd of_noise = Eigen::MatrixXd::Zero(system.global.rows(), system.global.cols());
+  of_noise(system.adjusted, system.adjusted) = noise;
+  return MeanMotionCovariance{with_motion(JointCovariance(system, noise)), with_motion(of_noise)};
 }
 
 }  // namespace telestrain

@@ -45,4 +45,22 @@ std::vector<WeakDirection> WeakDirections(const BundleInformation& information, 
 Result<BundleCovariance> CovarianceOf(const CalibrationData& data, const ArrayState& state,
                                       const BundleOptions& options, double sigma0);
 
+// Lens and views together with what the poses do on average, which says where the calibrated array
+// stands against the target and not against a frame. When pose k of K errs by the small motion
+// (w_k, d_k) about the array's origin, a point P that is tied to the target errs by w_k x P + d_k,
+// on average over the poses by w x P + d with the means w and d.
+struct MeanMotionCovariance {
+  // Of ArrayCalibration::Perturbed's parameters, then w (rad) and d (mm), in array axes. In the
+  // second the target is taken to be exactly as certified.
+  Eigen::MatrixXd of_everything, of_noise;
+};
+
+// As CovarianceOf. The poses answer to lens, views and target by e_k - C_k g, with errors e_k of
+// their own that are independent of everything but the poses that the stage connects. The target's
+// frame is that of its first board: what is uncertain about the other boards' places shows in the
+// views that see those.
+Result<MeanMotionCovariance> CovarianceWithMeanMotion(const CalibrationData& data,
+                                                      const ArrayState& state,
+                                                      const BundleOptions& options, double sigma0);
+
 }  // namespace telestrain
