@@ -75,6 +75,17 @@ std::vector<Line> ResidualLines(const Diagnosis& diagnosis) {
       {"  outliers by mrcal's rule", std::to_string(marked), "", ""}};
 }
 
+std::vector<Line> UncertaintyLines(const std::vector<UncertaintyMap>& maps) {
+  std::vector<Line> lines;
+  for (const UncertaintyMap& map : maps)
+    lines.push_back(
+        {"projection of " + map.view + " known to",
+         PrintSignificant(map.of_noise.mean_um, 2) + " um",
+         "at most " + PrintSignificant(map.of_noise.largest_um, 2) + " um",
+         "with the certificate " + PrintSignificant(map.of_everything.largest_um, 2) + " um"});
+  return lines;
+}
+
 std::vector<Line> PinholeLines(const PinholeComparison& pinhole) {
   std::vector<Line> lines{
       {"telecentric, as calibrated", Pixels(pinhole.telecentric.rms_px), "", ""}};
@@ -109,8 +120,11 @@ void SayTables(const Diagnosis& diagnosis, Console& console) {
     lines.insert(lines.end(), more.begin(), more.end());
   };
   if (diagnosis.optimum) append(OptimumLines(*diagnosis.optimum));
+  append(UncertaintyLines(diagnosis.maps));
   if (diagnosis.pinhole) append(PinholeLines(*diagnosis.pinhole));
   SayTable(lines, console);
+  if (diagnosis.length)
+    for (const std::string& sentence : diagnosis.length->sentences) console.Say("  " + sentence);
 }
 
 void SayDiagnosis(const Diagnosis& diagnosis, bool with_table, Console& console) {

@@ -48,6 +48,15 @@ Result<Diagnosis> Diagnose(const Session& session, const CalibrationRecord& reco
     diagnosis.optimum = *optimum;
   else
     diagnosis.optimum_missing_because = optimum.error().message;
+  TELESTRAIN_ASSIGN_OR_RETURN(
+      const MeanMotionCovariance covariance,
+      CovarianceWithMeanMotion(record.data, record.state, record.options, record.sigma0));
+  diagnosis.maps = UncertaintyMaps(session, record.state.array, covariance);
+  auto length = LengthUncertaintyOf(session, record.state.array, covariance);
+  if (length)
+    diagnosis.length = *length;
+  else
+    diagnosis.length_missing_because = length.error().message;
   auto pinhole = ComparePinhole(session, record.data, record.state, crosses);
   if (pinhole)
     diagnosis.pinhole = std::move(pinhole).value();

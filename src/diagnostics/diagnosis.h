@@ -8,7 +8,9 @@
 
 #include "calibration/calibration_record.h"
 #include "diagnostics/independent_optimum.h"
+#include "diagnostics/length_uncertainty.h"
 #include "diagnostics/pinhole_comparison.h"
+#include "diagnostics/projection_uncertainty.h"
 #include "diagnostics/residual_pattern.h"
 
 namespace telestrain {
@@ -22,7 +24,10 @@ struct Diagnosis {
   ResidualVerdict verdict;
   std::vector<PatternFinding> left_out;  // what is wrong with boards that the calibration left out
   std::optional<IndependentOptimum> optimum;
-  std::string optimum_missing_because;  // where there is none
+  std::string optimum_missing_because;      // where there is none
+  std::vector<UncertaintyMap> maps;         // one per view
+  std::optional<LengthUncertainty> length;  // what they mean; nothing with one group
+  std::string length_missing_because;
   std::optional<PinholeComparison> pinhole;
   std::string pinhole_missing_because;
 };
@@ -33,6 +38,9 @@ struct Diagnosis {
 Result<Diagnosis> Diagnose(const Session& session, const CalibrationRecord& record,
                            const std::vector<BoardObservation>& observations,
                            const std::vector<CrossObservation>& crosses);
+
+// The part `uncertainty` of mrcal.json: the maps and what they mean.
+nlohmann::ordered_json UncertaintyJson(const Diagnosis& diagnosis);
 
 inline constexpr const char* kDiagnosisSchema = "telestrain.mrcal/1";
 

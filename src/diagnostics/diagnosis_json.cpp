@@ -259,6 +259,7 @@ nlohmann::ordered_json DiagnosisJson(const Session& session, const CalibrationRe
           {"made_from", made_from},
           {"independent_optimum", OptimumJson(diagnosis)},
           {"residuals", ResidualsJson(session, record, diagnosis)},
+          {"uncertainty", UncertaintyJson(diagnosis)},
           {"pinhole", PinholeJson(diagnosis)}};
 }
 
