@@ -105,12 +105,13 @@ Result<PixelRegion> ReadRegion(const std::string& text) {
   std::array<int, 4> numbers{};
   std::size_t count = 0;
   std::istringstream items(text);
+  bool is_whole = true;
   for (std::string item; std::getline(items, item, ','); ++count) {
     const auto number = ParseInt(item);
-    if (!number || count == numbers.size()) break;
-    numbers[count] = *number;
+    is_whole = is_whole && number.has_value();
+    if (number && count < numbers.size()) numbers[count] = *number;
   }
-  if (count != numbers.size() || numbers[2] <= 0 || numbers[3] <= 0)
+  if (!is_whole || count != numbers.size() || numbers[2] <= 0 || numbers[3] <= 0)
     return Error{ErrorKind::kUsage, "--cull '" + text +
                                         "' is no region; give four whole numbers X,Y,WIDTH,HEIGHT "
                                         "in pixels of the sensor, such as 0,0,200,972"};
@@ -138,7 +139,7 @@ Result<CalibrateChoices> ReadChoices(const CalibrateArguments& arguments) {
 
 Status CalibrateStep(const Session& session, const fs::path& results,
                      const CalibrateChoices& choices, Console& console) {
-  TELESTRAIN_RETURN_IF_ERROR(RequireConsistent(results));
+  TELESTRAIN_RETURN_IF_ERROR(RequireConsistent(results, Step::kCalibrate));
   if (choices.earlier) TELESTRAIN_RETURN_IF_ERROR(RequireSameViews(*choices.earlier, session));
   TELESTRAIN_ASSIGN_OR_RETURN(const std::vector<BoardObservation> boards,
                               ReadDetectedBoards(session, results));
@@ -147,7 +148,8 @@ Status CalibrateStep(const Session& session, const fs::path& results,
   TELESTRAIN_RETURN_IF_ERROR(RemoveOutputsFrom(results, Step::kCalibrate));
   TELESTRAIN_ASSIGN_OR_RETURN(const Calibration calibration, Calibrate(session, boards, options));
   TELESTRAIN_ASSIGN_OR_RETURN(const auto made_from,
-                              HashesOf(results, {"inputs.json", "corners.vnl", "detection.json"}));
+                              HashesOf(results, {"inputs.json", "corners.vnl",
+                                                 "corner_covariances.csv", "detection.json"}));
   TELESTRAIN_RETURN_IF_ERROR(
       WriteFileAtomically(results / "residuals.csv", ResidualsCsv(session, calibration)));
   TELESTRAIN_RETURN_IF_ERROR(

@@ -32,7 +32,7 @@ class ExportCommand : public Command {
       return BadInput("--out " + out_ +
                       " is the results folder, whose corners.vnl must stay as it is; choose "
                       "another folder");
-    TELESTRAIN_RETURN_IF_ERROR(RequireConsistent(results_));
+    TELESTRAIN_RETURN_IF_ERROR(RequireConsistent(results_, Step::kDiagnose));
     TELESTRAIN_ASSIGN_OR_RETURN(const Session session, RecordedSession(results_));
     TELESTRAIN_ASSIGN_OR_RETURN(const CalibrationRecord record,
                                 ReadCalibrationRecord(session, results_));

@@ -35,25 +35,16 @@ void SayTable(const std::vector<Line>& lines, Console& console) {
 std::string Pixels(double value_px) { return PrintSignificant(value_px, 2) + " px"; }
 
 std::vector<Line> OptimumLines(const IndependentOptimum& optimum) {
-  const auto line = [](const char* what, const std::string& value, const std::string& limit,
-                       bool good) {
-    return Line{what, value, "at most " + limit, good ? "agrees" : "DISAGREES"};
+  const auto line = [](const char* what, double value_px) {
+    return Line{what, Pixels(value_px), "at most " + Pixels(kMaxResidualDifference_px),
+                value_px <= kMaxResidualDifference_px ? "agrees" : "DISAGREES"};
   };
-  const auto relative = [](double value) { return PrintSignificant(value, 2); };
-  return {
-      line("mrcal's own optimum: residuals", Pixels(optimum.max_residual_difference_px),
-           Pixels(kMaxResidualDifference_px),
-           optimum.mrcal_converged &&
-               optimum.max_residual_difference_px <= kMaxResidualDifference_px),
-      line("  magnifications, relative", relative(optimum.max_magnification_difference),
-           relative(kMaxMagnificationDifference),
-           optimum.max_magnification_difference <= kMaxMagnificationDifference),
-      line("  rotations between views", relative(optimum.max_rotation_difference_rad) + " rad",
-           relative(kMaxRotationDifference_rad) + " rad",
-           optimum.max_rotation_difference_rad <= kMaxRotationDifference_rad),
-      line("mrcal at our solution: residuals", Pixels(optimum.evaluated_max_residual_difference_px),
-           Pixels(kMaxResidualDifference_px),
-           optimum.evaluated_max_residual_difference_px <= kMaxResidualDifference_px)};
+  return {line("mrcal's optimum, undistorted model", optimum.max_residual_difference_px),
+          {"  magnifications, relative", PrintSignificant(optimum.max_magnification_difference, 2),
+           "", ""},
+          {"  rotations between views",
+           PrintSignificant(optimum.max_rotation_difference_rad, 2) + " rad", "", ""},
+          line("mrcal's projection, our solution", optimum.evaluated_max_residual_difference_px)};
 }
 
 std::vector<Line> ResidualLines(const Diagnosis& diagnosis) {
@@ -129,6 +120,10 @@ void SayTables(const Diagnosis& diagnosis, Console& console) {
 
 void SayDiagnosis(const Diagnosis& diagnosis, bool with_table, Console& console) {
   console.Say("diagnose   " + diagnosis.verdict.text +
+              (diagnosis.left_out.empty()
+                   ? ""
+                   : " But " + CountText(diagnosis.left_out.size(), "board") +
+                         " did not fit and had to be left out.") +
               (diagnosis.optimum ? " " + OptimumText(*diagnosis.optimum) : ""));
   SayFindings(diagnosis.verdict.findings, console);
   SayFindings(diagnosis.left_out, console);
@@ -144,8 +139,8 @@ void SayDiagnosis(const Diagnosis& diagnosis, bool with_table, Console& console)
 
 }  // namespace
 
-Status DiagnoseStep(const fs::path& results, bool with_table, Console& console) {
-  TELESTRAIN_RETURN_IF_ERROR(RequireConsistent(results));
+Result<int> DiagnoseStep(const fs::path& results, bool with_table, Console& console) {
+  TELESTRAIN_RETURN_IF_ERROR(RequireConsistent(results, Step::kDiagnose));
   TELESTRAIN_ASSIGN_OR_RETURN(const Session session, RecordedSession(results));
   TELESTRAIN_ASSIGN_OR_RETURN(const CalibrationRecord record,
                               ReadCalibrationRecord(session, results));
@@ -158,11 +153,12 @@ Status DiagnoseStep(const fs::path& results, bool with_table, Console& console) 
                               Diagnose(session, record, boards, crosses));
   TELESTRAIN_ASSIGN_OR_RETURN(
       const auto made_from,
-      HashesOf(results, {"calibration.json", "residuals.csv", "detection.json"}));
+      HashesOf(results, {"calibration.json", "residuals.csv", "detection.json", "corners.vnl",
+                         "corner_covariances.csv"}));
   TELESTRAIN_RETURN_IF_ERROR(
       WriteJson(results / "mrcal.json", DiagnosisJson(session, record, diagnosis, made_from)));
   SayDiagnosis(diagnosis, with_table, console);
-  return {};
+  return diagnosis.optimum && !diagnosis.optimum->agrees() ? 1 : 0;
 }
 
 }  // namespace telestrain

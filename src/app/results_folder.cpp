@@ -171,15 +171,17 @@ Status RequireSameInputs(const Session& session, const fs::path& results) {
   return {};
 }
 
-Status RequireConsistent(const fs::path& results) {
+Status RequireConsistent(const fs::path& results, Step before) {
   TELESTRAIN_ASSIGN_OR_RETURN(
       const Json inputs, ReadJson(results / "inputs.json", kInputsSchema, "telestrain detect"));
-  for (const auto& [name, schema, maker] :
-       {std::tuple{"detection.json", "telestrain.detection/1", "telestrain detect"},
-        std::tuple{"calibration.json", "telestrain.calibration/1", "telestrain calibrate"},
-        std::tuple{"mrcal.json", "telestrain.mrcal/1", "telestrain diagnose"},
-        std::tuple{"ruler.json", "telestrain.ruler/1", "telestrain verify"},
-        std::tuple{"strain.json", "telestrain.strain/1", "telestrain measure"}}) {
+  for (const auto& [step, name, schema, maker] :
+       {std::tuple{Step::kDetect, "detection.json", "telestrain.detection/1", "telestrain detect"},
+        std::tuple{Step::kCalibrate, "calibration.json", "telestrain.calibration/1",
+                   "telestrain calibrate"},
+        std::tuple{Step::kDiagnose, "mrcal.json", "telestrain.mrcal/1", "telestrain diagnose"},
+        std::tuple{Step::kVerify, "ruler.json", "telestrain.ruler/1", "telestrain verify"},
+        std::tuple{Step::kMeasure, "strain.json", "telestrain.strain/1", "telestrain measure"}}) {
+    if (step >= before) continue;
     std::error_code code;
     if (!fs::exists(results / name, code)) continue;
     TELESTRAIN_ASSIGN_OR_RETURN(const Json json, ReadJson(results / name, schema, maker));

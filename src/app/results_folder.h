@@ -31,9 +31,9 @@ Result<Session> RecordedSession(const std::filesystem::path& results);
 // tables or images.
 Status RequireSameInputs(const Session& session, const std::filesystem::path& results);
 
-// Fails (kBadInput) when the folder is no results folder (no inputs.json), or when a result in it
-// was made from another version of a file than the one that lies there now.
-Status RequireConsistent(const std::filesystem::path& results);
+// Fails (kBadInput) when the folder is no results folder (no inputs.json), or when a result of a
+// step earlier than `before` was made from another version of a file than the one that lies there.
+Status RequireConsistent(const std::filesystem::path& results, Step before);
 
 // SHA-256 of files of the results folder, for `made_from`.
 Result<std::map<std::string, std::string>> HashesOf(const std::filesystem::path& results,

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 // The calibration in the results folder, which must be of this session's views.
 Result<ArrayCalibration> LoadCalibration(const Session& session, const fs::path& results) {
-  TELESTRAIN_RETURN_IF_ERROR(RequireConsistent(results));
+  TELESTRAIN_RETURN_IF_ERROR(RequireConsistent(results, Step::kDiagnose));
   TELESTRAIN_ASSIGN_OR_RETURN(ArrayCalibration array,
                               ReadArrayCalibration(results / "calibration.json"));
   bool same = array.views.size() == session.views.size();
@@ -161,7 +161,7 @@ Status MeasureStep(const Session& session, const fs::path& results, Console& con
 }
 
 Status RenderStep(const fs::path& results, Console& console) {
-  TELESTRAIN_RETURN_IF_ERROR(RequireConsistent(results));
+  TELESTRAIN_RETURN_IF_ERROR(RequireConsistent(results, Step::kRender));
   TELESTRAIN_RETURN_IF_ERROR(RemoveOutputsFrom(results, Step::kRender));
   TELESTRAIN_RETURN_IF_ERROR(RenderResults(results, RenderOptions{}, console));
   console.Say("render     pictures in " + (results / "pictures").string());
@@ -169,7 +169,7 @@ Status RenderStep(const fs::path& results, Console& console) {
 }
 
 Result<int> ReportStep(const fs::path& results, const fs::path& templates, Console& console) {
-  TELESTRAIN_RETURN_IF_ERROR(RequireConsistent(results));
+  TELESTRAIN_RETURN_IF_ERROR(RequireConsistent(results, Step::kReport));
   std::error_code code;
   if (!fs::exists(results / "calibration.json", code))
     return BadInput((results / "calibration.json").string() +

@@ -46,8 +46,9 @@ struct CalibrateChoices {
 Result<CalibrateChoices> ReadChoices(const CalibrateArguments& arguments);
 Status CalibrateStep(const Session& session, const std::filesystem::path& results,
                      const CalibrateChoices& choices, Console& console);
-// Reads the results folder only; `with_table`: says every figure, not only the outcome.
-Status DiagnoseStep(const std::filesystem::path& results, bool with_table, Console& console);
+// Reads the results folder only; `with_table`: says every figure, not only the outcome. The value
+// is an exit code: 1 when mrcal disagrees.
+Result<int> DiagnoseStep(const std::filesystem::path& results, bool with_table, Console& console);
 Status VerifyStep(const Session& session, const std::filesystem::path& results, Console& console);
 Status MeasureStep(const Session& session, const std::filesystem::path& results, Console& console);
 Status RenderStep(const std::filesystem::path& results, Console& console);

@@ -111,7 +111,7 @@ bool BoardResidual::Evaluate(double const* const* parameters, double* residuals,
     for (const Block block : {kLens, kView, kPose, kPitch, kShape})
       if (jacobians[block] != nullptr) WriteJacobian(chain, factor, block, jacobians[block]);
   }
-  return std::isfinite(values(n - 1));
+  return values.allFinite();
 }
 
 void BoardResidual::WriteJacobian(const Chain& chain, const GramFactor& factor, Block block,

@@ -162,9 +162,11 @@ void BringBackOutliers(const CalibrationData& before, CalibrationData& data) {
     data.boards.push_back(board);
     data.boards.back().image = at->second;
   }
-  std::erase_if(data.rejected, [&](const RejectedObservation& rejected) {
-    return rejected.corners > 0 && index.contains(rejected.image);
-  });
+  // Those of `before` stand first and stay.
+  std::vector<RejectedObservation> rejected = before.rejected;
+  for (std::size_t i = rejected.size(); i < data.rejected.size(); ++i)
+    if (!index.contains(data.rejected[i].image)) rejected.push_back(data.rejected[i]);
+  data.rejected = std::move(rejected);
 }
 
 struct ErrorSums {
@@ -227,10 +229,8 @@ std::string UselessParameters(const ArrayCalibration& array) {
   return useless;
 }
 
-// Gives every corner the noise that the residuals of a solution show.
-void ScaleNoise(const ArrayState& state, CalibrationData& data) {
-  constexpr double kLeastFactor = 1e-6;  // of exact corners
-  const double factor = std::max(kLeastFactor, RobustSigma(data, state));
+// Multiplies every corner's stated noise.
+void ScaleNoise(double factor, CalibrationData& data) {
   data.floor_px *= factor;
   for (BoardData& board : data.boards)
     for (Eigen::Matrix2d& whitening : board.whitening) whitening /= factor;
@@ -262,10 +262,15 @@ Result<Calibration> Calibrate(const Session& session,
   CullRegions(session, options.culled, calibration.data);
   DropCopiedImages(session, calibration.data);
   TELESTRAIN_RETURN_IF_ERROR(RequireEnoughPoses(calibration.data));
-  const CalibrationData all = calibration.data;
+  CalibrationData all = calibration.data;
   TELESTRAIN_ASSIGN_OR_RETURN(const ArrayState clean,
                               SolveWithoutOutliers(session, options, calibration));
-  if (options.noise_is_assumed) ScaleNoise(clean, calibration.data);
+  if (options.noise_is_assumed) {
+    constexpr double kLeastFactor = 1e-6;  // of exact corners
+    const double factor = std::max(kLeastFactor, RobustSigma(calibration.data, clean));
+    ScaleNoise(factor, calibration.data);
+    ScaleNoise(factor, all);
+  }
   TELESTRAIN_ASSIGN_OR_RETURN(
       ChosenModel chosen, Explain(session, calibration.data, clean.poses,
                                   ChooseModel(calibration.data, clean, OptionsFor(session, options),

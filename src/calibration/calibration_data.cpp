@@ -52,14 +52,27 @@ BoardData MakeBoard(const BoardObservation& observation, const TargetSpec& targe
   return board;
 }
 
-constexpr int kLeastCorners = 4;  // three make an affine image; the fourth checks it
-
-int SeenCorners(const BoardObservation& observation) {
-  return static_cast<int>(std::count_if(observation.corners.begin(), observation.corners.end(),
-                                        [](const auto& corner) { return corner.has_value(); }));
+std::vector<int> SeenCorners(const BoardObservation& observation) {
+  std::vector<int> seen;
+  for (std::size_t i = 0; i < observation.corners.size(); ++i)
+    if (observation.corners[i]) seen.push_back(static_cast<int>(i));
+  return seen;
 }
 
 }  // namespace
+
+bool GiveAnAffineImage(const std::vector<int>& corners, int grid_columns) {
+  constexpr std::size_t kLeastCorners = 4;  // three make an affine image; the fourth checks it
+  if (corners.size() < kLeastCorners) return false;
+  const auto place = [&](int corner) {
+    return Eigen::Vector2i(corner % grid_columns, corner / grid_columns);
+  };
+  const Eigen::Vector2i first = place(corners[0]), along = place(corners[1]) - first;
+  return std::any_of(corners.begin() + 2, corners.end(), [&](int corner) {
+    const Eigen::Vector2i across = place(corner) - first;
+    return along.x() * across.y() != along.y() * across.x();
+  });
+}
 
 void BoardData::RemoveCorners(const std::vector<bool>& remove) {
   Eigen::Index kept = 0;
@@ -133,11 +146,14 @@ void CullRegions(const Session& session, const std::vector<PixelRegion>& regions
       remove.push_back(is_inside(board.pixels.col(i)));
     auto count = static_cast<int>(std::count(remove.begin(), remove.end(), true));
     if (count == 0) continue;
-    const bool whole_board = board.Count() - count < kLeastCorners;
+    std::vector<int> kept;
+    for (std::size_t i = 0; i < remove.size(); ++i)
+      if (!remove[i]) kept.push_back(board.corner[i]);
+    const bool whole_board = !GiveAnAffineImage(kept, data.target.columns);
     if (whole_board) remove.assign(remove.size(), true), count = static_cast<int>(board.Count());
     data.rejected.push_back({data.images[static_cast<std::size_t>(board.image)].image,
                              session.views[static_cast<std::size_t>(board.view)].name,
-                             "inside a culled region", count, whole_board});
+                             kCulledReason, count, whole_board});
     board.RemoveCorners(remove);
   }
   std::erase_if(data.boards, [](const BoardData& board) { return board.Count() == 0; });
@@ -165,10 +181,11 @@ Result<CalibrationData> CollectCalibrationData(const Session& session,
       data.rejected.push_back({observation.image, observation.view, observation.rejected_because});
       continue;
     }
-    const int seen = SeenCorners(observation);
-    if (seen < kLeastCorners) {
+    const std::vector<int> seen = SeenCorners(observation);
+    if (!GiveAnAffineImage(seen, session.target.columns)) {
       data.rejected.push_back({observation.image, observation.view,
-                               "fewer than " + std::to_string(kLeastCorners) + " corners", seen});
+                               "fewer than four corners, or all on one line",
+                               static_cast<int>(seen.size())});
       continue;
     }
     const std::string& group = session.views[static_cast<std::size_t>(view)].group;

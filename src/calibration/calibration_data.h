@@ -54,8 +54,14 @@ Result<CalibrationData> CollectCalibrationData(const Session& session,
                                                const std::vector<BoardObservation>& observations,
                                                double floor_px = 0.001);
 
+// Whether corners (indices in the grid) give an affine image of their board and a check of it: at
+// least four that do not lie on one line.
+bool GiveAnAffineImage(const std::vector<int>& corners, int grid_columns);
+
+inline constexpr const char* kCulledReason = "inside a culled region";
+
 // Takes the corners inside the regions (sensor pixels) out and lists them as rejected; a board that
-// keeps fewer than four goes whole.
+// keeps too few goes whole.
 void CullRegions(const Session& session, const std::vector<PixelRegion>& regions,
                  CalibrationData& data);
 

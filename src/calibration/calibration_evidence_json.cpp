@@ -14,12 +14,14 @@ Json StageJson(const Calibration& calibration) {
             {"nominal_margin_deg", decision.smallest_nominal_margin_deg},
             {"pairs", decision.stage_pairs},
             {"agreeing", decision.stage_agreeing}};
-  // Without a move there is no such number.
+  // Without a move, or without one that decides, there is no such number.
+  const bool decided = decision.stage_pairs > 0;
+  json["margin_px"] = decided ? Json(decision.smallest_stage_margin_px) : Json(nullptr);
+  json["nominal_agrees"] =
+      decided ? Json(decision.stage_agreeing == decision.stage_pairs) : Json(nullptr);
   const auto of_moves = [&](const char* key, const Json& value) {
-    json[key] = decision.stage_pairs > 0 ? value : Json(nullptr);
+    json[key] = calibration.bundle.stage_count > 0 ? value : Json(nullptr);
   };
-  of_moves("margin_px", decision.smallest_stage_margin_px);
-  of_moves("nominal_agrees", decision.stage_agreeing == decision.stage_pairs);
   of_moves("axis_in_array", ArrayOf(calibration.bundle.state.stage_axis_in_array));
   of_moves("axis_to_nominal_deg", calibration.stage.axis_to_nominal_deg);
   of_moves("travel_scale_relative", calibration.bundle.state.stage_scale_relative);

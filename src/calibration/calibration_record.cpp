@@ -101,6 +101,7 @@ void ReadSolution(const Session& session, const Json& json, CalibrationRecord& r
   record.options.estimate_bow = json.at("target").at("bow_is_estimated").get<bool>();
   record.options.robust_sigmas = json.at("solver").at("robust_sigmas").get<double>();
   record.data.floor_px = json.at("solver").at("noise_floor_px").get<double>();
+  record.noise_is_assumed = json.at("solver").at("corner_noise") == "from the residuals";
   record.sigma0 = json.at("reprojection").at("sigma0").get<double>();
   for (const Json& r : json.at("rejected"))
     record.data.rejected.push_back({r.at("image").get<std::string>(),

@@ -13,6 +13,7 @@ struct CalibrationRecord {
   ArrayState state;       // with the covariances of the array
   BundleOptions options;  // that lead from `data` to `state`
   double sigma0 = 1;
+  bool noise_is_assumed = false;  // the corners' noise was taken from the residuals
 };
 
 // Reads calibration.json and residuals.csv of `results`; `session` is the one that they were made

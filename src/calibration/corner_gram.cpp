@@ -237,8 +237,9 @@ GramFactor GramOf(Columns& columns) {
 // stands for all that it may hide, with its part of the gradient: without that the solver's
 // gradient would be wrong and it would stop too early. `extra` lengthens the last column.
 GramFactor PivotedFactor(double extra, const GramFactor& gram) {
-  constexpr double kRounding = 1e-14;  // of the column's own square: 64 times the precision
+  constexpr double kRounding = 1e-14;  // of the column's own square: 45 times the precision
   const Eigen::Index n = gram.rows();
+  if (!gram.allFinite()) return GramFactor::Constant(n, n, gram.sum());
   GramFactor left = gram.selfadjointView<Eigen::Upper>();
   GramFactor factor = GramFactor::Zero(n, n);
   Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, kMaxColumns> weight(n);
@@ -257,7 +258,9 @@ GramFactor PivotedFactor(double extra, const GramFactor& gram) {
   for (Eigen::Index column = 0; column + 1 < n; ++column) {
     if (weight(column) == 0) continue;
     factor(row, column) = std::sqrt(kRounding / weight(column));
-    factor(row, n - 1) = left(column, n - 1) / factor(row, column);
+    // What rounding leaves must not make the last column longer than it is.
+    const double room = std::sqrt(std::max(left(n - 1, n - 1), 0.0));
+    factor(row, n - 1) = std::clamp(left(column, n - 1) / factor(row, column), -room, room);
     left(n - 1, n - 1) -= factor(row, n - 1) * factor(row, n - 1);
     ++row;
   }

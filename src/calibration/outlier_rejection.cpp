@@ -60,7 +60,6 @@ BoardOutliers FindOutliers(const Eigen::Matrix2Xd& errors, const Eigen::Matrix2X
   }
   outliers.whole_board =
       outliers.count > kLargestRejectedShare * static_cast<double>(errors.cols());
-  if (outliers.whole_board) outliers.count = static_cast<int>(errors.cols());
   return outliers;
 }
 
@@ -71,9 +70,14 @@ BoardOutliers FindMrcalOutliers(const Eigen::Matrix2Xd& errors, double limit) {
     outliers.remove.push_back(errors.col(i).cwiseAbs().maxCoeff() > limit);
     outliers.count += outliers.remove.back();
   }
-  // Fewer than four corners say nothing that the image's affine map does not absorb.
-  outliers.whole_board = errors.cols() - outliers.count < 4;
   return outliers;
+}
+
+bool KeepsTooFew(const BoardData& board, const BoardOutliers& outliers, int grid_columns) {
+  std::vector<int> kept;
+  for (std::size_t i = 0; i < outliers.remove.size(); ++i)
+    if (!outliers.remove[i]) kept.push_back(board.corner[i]);
+  return !GiveAnAffineImage(kept, grid_columns);
 }
 
 double SampleSigma(const std::vector<double>& sizes) {
@@ -100,20 +104,23 @@ int RemoveOutliers(const Session& session, const ArrayState& state, const Outlie
   std::vector<bool> drop_board(data.boards.size(), false);
   for (std::size_t b = 0; b < data.boards.size(); ++b) {
     BoardData& board = data.boards[b];
-    const BoardOutliers outliers =
+    BoardOutliers outliers =
         by_mrcal ? FindMrcalOutliers(errors[b], options.reject_sigmas * sigma)
                  : FindOutliers(errors[b], ReprojectionErrors_px(state, board), sigma, options);
     if (outliers.count == 0) continue;
+    const bool too_few = KeepsTooFew(board, outliers, data.target.columns);
+    outliers.whole_board = outliers.whole_board || too_few;
+    if (outliers.whole_board) outliers.count = static_cast<int>(board.Count());
     drop_board[b] = outliers.whole_board;
     removed += outliers.count;
-    data.rejected.push_back(
-        {data.images[static_cast<std::size_t>(board.image)].image,
-         session.views[static_cast<std::size_t>(board.view)].name,
-         outliers.whole_board && by_mrcal ? "fewer than four corners of the board are no outliers"
-         : outliers.whole_board ? "the board does not fit the array (more than a quarter of its "
-                                  "corners are outliers)"
-                                : "corners are outliers",
-         outliers.count, outliers.whole_board});
+    data.rejected.push_back({data.images[static_cast<std::size_t>(board.image)].image,
+                             session.views[static_cast<std::size_t>(board.view)].name,
+                             too_few ? "too few corners of the board are no outliers"
+                             : outliers.whole_board
+                                 ? "the board does not fit the array (more than a quarter of its "
+                                   "corners are outliers)"
+                                 : "corners are outliers",
+                             outliers.count, outliers.whole_board});
     board.RemoveCorners(outliers.remove);
   }
   for (std::size_t b = data.boards.size(); b-- > 0;)

@@ -28,6 +28,24 @@ double ExpectedRmsOf(const CalibrationData& data, int degrees) {
   return std::sqrt(std::max(0.0, variance_px2) / corners * degrees / (2 * corners));
 }
 
+Result<IndependentOptimum> OptimumOf(const Session& session, const CalibrationRecord& record) {
+  TELESTRAIN_ASSIGN_OR_RETURN(const ArraySeed seed, SeedArray(session, record.data));
+  return CheckAgainstMrcal(record.data, record.state, StartOf(session, seed));
+}
+
+// Boards that were left out by wish have nothing to explain.
+void RemoveCulled(const Session& session, const CalibrationRecord& record, CalibrationData& all) {
+  std::erase_if(all.boards, [&](const BoardData& board) {
+    const auto& image = all.images[static_cast<std::size_t>(board.image)].image;
+    const auto& view = session.views[static_cast<std::size_t>(board.view)].name;
+    return std::any_of(record.data.rejected.begin(), record.data.rejected.end(),
+                       [&](const RejectedObservation& r) {
+                         return r.image == image && r.view == view && r.whole_board &&
+                                r.reason == kCulledReason;
+                       });
+  });
+}
+
 }  // namespace
 
 Result<Diagnosis> Diagnose(const Session& session, const CalibrationRecord& record,
@@ -39,11 +57,11 @@ Result<Diagnosis> Diagnose(const Session& session, const CalibrationRecord& reco
   diagnosis.expected_rms_px = ExpectedRmsOf(record.data, diagnosis.verdict.degrees);
   ResidualList replayed = diagnosis.residuals;
   diagnosis.outlier_replay = ReplayOutlierRule(replayed);
-  TELESTRAIN_ASSIGN_OR_RETURN(const CalibrationData all,
-                              CollectCalibrationData(session, observations));
+  diagnosis.noise_is_from_residuals = record.noise_is_assumed;
+  TELESTRAIN_ASSIGN_OR_RETURN(CalibrationData all, CollectCalibrationData(session, observations));
+  RemoveCulled(session, record, all);
   diagnosis.left_out = ExplainLeftOutBoards(all, record.data, record.state);
-  TELESTRAIN_ASSIGN_OR_RETURN(const ArraySeed seed, SeedArray(session, record.data));
-  auto optimum = CheckAgainstMrcal(record.data, record.state, StartOf(session, seed));
+  auto optimum = OptimumOf(session, record);
   if (optimum)
     diagnosis.optimum = *optimum;
   else

@@ -20,6 +20,7 @@ struct Diagnosis {
   ResidualList residuals;
   // What the corners' own covariances leave after the fit, per scalar.
   double expected_rms_px = 0;
+  bool noise_is_from_residuals = false;     // then their size says nothing
   std::vector<OutlierPass> outlier_replay;  // by mrcal's rule
   ResidualVerdict verdict;
   std::vector<PatternFinding> left_out;  // what is wrong with boards that the calibration left out
@@ -34,7 +35,7 @@ struct Diagnosis {
 
 // `observations`: every board as detected, for those that the calibration left out; `crosses`: of
 // the ruler, for the pinhole arm. What one of the checks cannot do is stated, not an error. Fails
-// (kEstimationFailed) when the closed-form start of the independent optimum cannot be found again.
+// when the covariance cannot be found again or an observation is not of the session.
 Result<Diagnosis> Diagnose(const Session& session, const CalibrationRecord& record,
                            const std::vector<BoardObservation>& observations,
                            const std::vector<CrossObservation>& crosses);

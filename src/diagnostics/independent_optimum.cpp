@@ -86,9 +86,7 @@ void KeepImages(const std::set<int>& kept, CommonProblem& common) {
 }  // namespace
 
 bool IndependentOptimum::agrees() const {
-  return mrcal_converged && max_residual_difference_px <= kMaxResidualDifference_px &&
-         max_magnification_difference <= kMaxMagnificationDifference &&
-         max_rotation_difference_rad <= kMaxRotationDifference_rad &&
+  return max_residual_difference_px <= kMaxResidualDifference_px &&
          evaluated_max_residual_difference_px <= kMaxResidualDifference_px;
 }
 

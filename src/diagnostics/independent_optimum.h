@@ -18,8 +18,6 @@ namespace telestrain {
 // of the tests, whose corners hold a distortion of some tenths of a pixel that the common model
 // lacks, the optima are up to 8e-8 px apart, without it 1e-9 px.
 inline constexpr double kMaxResidualDifference_px = 1e-6;
-// What a difference of 1e-6 px means on a board with a radius of some 300 px, three of them.
-inline constexpr double kMaxMagnificationDifference = 1e-8, kMaxRotationDifference_rad = 1e-8;
 
 struct IndependentOptimum {
   // Optimised: over all corners, over the views (relative), over the rotations from the first view
@@ -39,6 +37,8 @@ struct IndependentOptimum {
   // the evaluation.
   double telecentricity_left_out_per_mm = 0;
 
+  // By the residuals, which do not depend on how well the corners determine a parameter. (What
+  // 1e-6 px means for a magnification or a rotation does: 1e-8 on boards with a radius of 300 px.)
   bool agrees() const;
 };
 

@@ -156,7 +156,8 @@ std::optional<double> PinholeComparison::AsGoodFrom_mm() const {
   constexpr double kAsGood = 1.01;
   std::optional<double> nearest;
   for (const PinholeArm& arm : arms)
-    if (!arm.five_coefficients && arm.reprojection.rms_px <= kAsGood * telecentric.rms_px)
+    if (!arm.five_coefficients && arm.converged &&
+        arm.reprojection.rms_px <= kAsGood * telecentric.rms_px)
       nearest = std::min(nearest.value_or(arm.working_distance_mm), arm.working_distance_mm);
   return nearest;
 }

@@ -92,7 +92,9 @@ Result<CornerLine> ParseLine(const std::string& where, std::string text, Columns
 // Ends a block: a lone missing corner is a rejected board.
 Status CloseBlock(const std::string& where, int corner_count, BoardObservation* board) {
   const auto count = static_cast<int>(board->corners.size());
-  if (count == 1 && !board->corners[0]) {
+  const bool is_empty = std::none_of(board->corners.begin(), board->corners.end(),
+                                     [](const auto& corner) { return corner.has_value(); });
+  if (is_empty && (count == 1 || count == corner_count)) {
     board->corners.clear();
     board->rejected_because = kNotSeen;
     return {};

@@ -121,9 +121,11 @@ TEST_F(CalibrateVerb, CulledRegionsAreLeftOutAndListed) {
 
 TEST_F(CalibrateVerb, ARegionThatIsNoneIsWrongUsage) {
   MustRun({"detect"});
-  const ProgramRun run = Calibrate({"--cull", "0,0,160"});
-  EXPECT_EQ(run.exit_code, 2) << run.out;
-  EXPECT_TRUE(Holds(run.err, "X,Y,WIDTH,HEIGHT")) << run.err;
+  for (const char* region : {"0,0,160", "0,0,160,486,7", "0,0,160,wide", "0,0,0,486"}) {
+    const ProgramRun run = Calibrate({"--cull", region});
+    EXPECT_EQ(run.exit_code, 2) << region << run.out;
+    EXPECT_TRUE(Holds(run.err, "X,Y,WIDTH,HEIGHT")) << region << run.err;
+  }
 }
 
 }  // namespace

@@ -18,9 +18,11 @@ TEST_F(DiagnoseVerb, SaysTheVerdictAndEveryCheckAndRepeatsItsBytes) {
   MustRun({"detect", "calibrate"});
   const ProgramRun run = Diagnose();
   ASSERT_EQ(run.exit_code, 0) << run.err;
-  for (const char* part : {"The residuals are noise.", "mrcal's own optimum", "agrees",
-                           "mrcal at our solution", "Moran's I", "pinhole at 10 m"})
+  for (const char* part :
+       {"The residuals are noise.", "mrcal's optimum, undistorted model", "agrees",
+        "mrcal's projection, our solution", "Moran's I", "pinhole at 10 m"})
     EXPECT_NE(run.out.find(part), std::string::npos) << part << " in\n" << run.out;
+  EXPECT_EQ(run.out.find("DISAGREES"), std::string::npos) << run.out;
   const std::string bytes = ReadAll(results() / "mrcal.json");
   ASSERT_EQ(Diagnose().exit_code, 0);
   EXPECT_EQ(ReadAll(results() / "mrcal.json"), bytes);
