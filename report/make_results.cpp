@@ -11,7 +11,8 @@ namespace telestrain {
 namespace {
 
 struct Parts {
-  Json inputs, detection, calibration, ruler, strain;  // null when the file does not exist
+  Json inputs, detection, calibration, diagnosis, ruler,
+      strain;  // null when the file does not exist
 };
 
 Result<Json> ReadOptional(const std::filesystem::path& path, const std::string& schema,
@@ -30,6 +31,9 @@ Result<Parts> ReadParts(const std::filesystem::path& results) {
   TELESTRAIN_ASSIGN_OR_RETURN(parts.calibration,
                               ReadOptional(results / "calibration.json", "telestrain.calibration/1",
                                            "telestrain calibrate"));
+  TELESTRAIN_ASSIGN_OR_RETURN(
+      parts.diagnosis,
+      ReadOptional(results / "mrcal.json", "telestrain.mrcal/1", "telestrain diagnose"));
   TELESTRAIN_ASSIGN_OR_RETURN(
       parts.ruler, ReadOptional(results / "ruler.json", "telestrain.ruler/1", "telestrain verify"));
   TELESTRAIN_ASSIGN_OR_RETURN(
@@ -87,7 +91,7 @@ Result<ResultTable> EvidenceTable(const std::filesystem::path& results) {
   ResultTable table("result-files", "Files of the results folder",
                     {{"File", ""}, {"Size", "bytes"}, {"SHA-256", ""}});
   for (const char* name : {"inputs.json", "detection.json", "calibration.json", "residuals.csv",
-                           "ruler.json", "strain.json"}) {
+                           "mrcal.json", "ruler.json", "strain.json"}) {
     if (!std::filesystem::exists(results / name)) continue;
     TELESTRAIN_ASSIGN_OR_RETURN(const std::string bytes, ReadFile(results / name));
     table.AddRow({name, CountCell(static_cast<double>(bytes.size())), Sha256Hex(bytes)});
@@ -106,6 +110,7 @@ Json ResultsJson(ResultsDraft draft, const Json& inputs, const std::string& verd
                  {"printed", RuleSentence(draft.acceptance)},
                  {"printed_undecided", UndecidedSentence(draft)}}},
                {"measured", draft.measured},
+               {"diagnosis", std::move(draft.diagnosis)},
                {"quantities", Json::array()},
                {"tables", std::move(draft.tables)},
                {"inputs", inputs}};
@@ -138,6 +143,7 @@ Result<Outcome> MakeResults(const std::filesystem::path& results) {
   ResultsDraft draft;
   draft.acceptance = ReadAcceptance(parts.inputs);
   AddCalibration(parts.calibration, parts.detection, draft);
+  AddDiagnosis(parts.diagnosis, parts.ruler, draft);
   AddRuler(parts.ruler, draft);
   AddStrain(parts.strain, parts.calibration, draft);
   draft.AddTable(SummaryTable(draft));

@@ -142,7 +142,7 @@ void Plot::DrawLegend(const std::vector<LegendEntry>& entries) {
   const double y_pt = area_.top_pt() + 9;
   for (const LegendEntry& entry : entries) {
     if (entry.line)
-      pdf_.DrawLine({x_pt, y_pt}, {x_pt + 14, y_pt}, {entry.color, 1.2});
+      pdf_.DrawLine({x_pt, y_pt}, {x_pt + 14, y_pt}, {entry.color, 1.2, entry.dash});
     else
       DrawMarkerShape(pdf_, {x_pt + 7, y_pt}, entry.marker, entry.color, 2.2);
     pdf_.DrawText(style, {x_pt + 18, y_pt - 2.6}, entry.text);

@@ -41,6 +41,7 @@ class Plot {
     Marker marker = Marker::kDot;
     Color color;
     bool line = false;
+    Dash dash = Dash::kSolid;  // of the line
   };
   // In a row above the chart's area.
   void DrawLegend(const std::vector<LegendEntry>& entries);

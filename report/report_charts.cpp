@@ -213,10 +213,20 @@ void DrawNoData(const ReportContext& context, const PageBox& box) {
 Status DrawChart(const ReportContext& context, const std::string& name, const PageBox& box) {
   using Draw = Status (*)(const ReportContext&, const PageBox&);
   static const std::map<std::string, Draw> kDraw = {
-      {"residual-field", DrawResidualField},     {"residual-histogram", DrawResidualHistogram},
-      {"residual-scatter", DrawResidualScatter}, {"ruler-errors", DrawRulerErrors},
-      {"strain-states", DrawStrainStates},       {"strain-gauges", DrawStrainGauges},
-      {"strain-errors", DrawStrainErrors}};
+      {"residual-field", DrawResidualField},
+      {"residual-histogram", DrawResidualHistogram},
+      {"residual-scatter", DrawResidualScatter},
+      {"ruler-errors", DrawRulerErrors},
+      {"strain-states", DrawStrainStates},
+      {"strain-gauges", DrawStrainGauges},
+      {"strain-errors", DrawStrainErrors},
+      {"diagnosis-histogram", DrawDiagnosisHistogram},
+      {"diagnosis-lengths", DrawDiagnosisLengths},
+      {"diagnosis-directions", DrawDiagnosisDirections},
+      {"regional-means", DrawRegionalMeans},
+      {"regional-deviations", DrawRegionalDeviations},
+      {"pinhole-rms", DrawPinholeRms},
+      {"pinhole-ruler", DrawPinholeRuler}};
   return kDraw.at(name)(context, box);
 }
 

@@ -16,6 +16,18 @@ Status DrawResidualField(const ReportContext& context, const PageBox& box);
 Status DrawResidualHistogram(const ReportContext& context, const PageBox& box);
 Status DrawResidualScatter(const ReportContext& context, const PageBox& box);
 
+// The charts of the diagnosis. From mrcal.json: all residuals against their Gaussian on logarithmic
+// counts, directions as a rose of sectors, means and standard deviations over the field of each
+// view. From residuals.csv and mrcal.json: lengths against the Rayleigh curve.
+Status DrawDiagnosisHistogram(const ReportContext& context, const PageBox& box);
+Status DrawDiagnosisLengths(const ReportContext& context, const PageBox& box);
+Status DrawDiagnosisDirections(const ReportContext& context, const PageBox& box);
+Status DrawRegionalMeans(const ReportContext& context, const PageBox& box);
+Status DrawRegionalDeviations(const ReportContext& context, const PageBox& box);
+// From the table "pinhole" of results.json: against the working distance, both axes logarithmic.
+Status DrawPinholeRms(const ReportContext& context, const PageBox& box);
+Status DrawPinholeRuler(const ReportContext& context, const PageBox& box);
+
 // "no data" in the middle of an empty frame.
 void DrawNoData(const ReportContext& context, const PageBox& box);
 

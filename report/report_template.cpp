@@ -46,19 +46,30 @@ const std::vector<std::string>& TableNames() {
                                                   "strain-rejected",
                                                   "pipe",
                                                   "correlation",
-                                                  "corners-rejected"};
+                                                  "corners-rejected",
+                                                  "mrcal-check",
+                                                  "mrcal-facts",
+                                                  "residual-tests",
+                                                  "residual-views",
+                                                  "residual-findings",
+                                                  "residual-boards",
+                                                  "outlier-replay",
+                                                  "pinhole"};
   return kNames;
 }
 
 const std::vector<std::string>& ChartNames() {
   static const std::vector<std::string> kNames = {
-      "residual-field", "residual-histogram", "residual-scatter", "ruler-errors",
-      "strain-states",  "strain-gauges",      "strain-errors"};
+      "residual-field",    "residual-histogram",   "residual-scatter", "ruler-errors",
+      "strain-states",     "strain-gauges",        "strain-errors",    "diagnosis-histogram",
+      "diagnosis-lengths", "diagnosis-directions", "regional-means",   "regional-deviations",
+      "pinhole-rms",       "pinhole-ruler"};
   return kNames;
 }
 
 const std::vector<std::string>& ConditionNames() {
-  static const std::vector<std::string> kNames = {"calibration", "ruler", "strain", "gauges"};
+  static const std::vector<std::string> kNames = {"calibration", "diagnosis", "pinhole",
+                                                  "ruler",       "strain",    "gauges"};
   return kNames;
 }
 

@@ -95,7 +95,8 @@ struct ResultsDraft {
   Acceptance acceptance;
   std::vector<Quantity> quantities;
   Json tables = Json::array();
-  Json measured = Json::object();  // section -> bool
+  Json measured = Json::object();   // section -> bool
+  Json diagnosis = Json::object();  // sentences of the diagnosis, as printed
 
   void AddTable(ResultTable table) { tables.push_back(table.TakeJson()); }
   // Decides the quantity by its limit if it has no verdict yet.

@@ -14,6 +14,13 @@ void AddInputs(const Json& inputs, ResultsDraft& draft);
 void AddCalibration(const Json& calibration, const Json& detection, ResultsDraft& draft);
 // The first part of it: what the lens and the views are.
 void AddLensAndViews(const Json& calibration, ResultsDraft& draft);
+// What mrcal.json says. The check against mrcal with its quantities: a disagreement of any kind is
+// a fail; a check that was not made is a row without a limit. Then the parts below.
+void AddDiagnosis(const Json& diagnosis, const Json& ruler, ResultsDraft& draft);
+// Its part `residuals`: verdict, findings, tests, views, worst boards, outlier rule.
+void AddResidualDiagnosis(const Json& residuals, ResultsDraft& draft);
+// Its part `pinhole`: the arms beside the telecentric model, on the ruler images of `ruler`.
+void AddPinhole(const Json& pinhole, const Json& ruler, ResultsDraft& draft);
 // Length errors with their verdicts, summary and budget.
 void AddRuler(const Json& ruler, ResultsDraft& draft);
 // States, comparison with the gauges, pipe, budget, correlation settings.

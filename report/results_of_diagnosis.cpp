@@ -1,0 +1,146 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "report/results_parts.h"
+
+namespace telestrain {
+namespace {
+
+// The differences are of the order of 1e-10: in this unit they read well.
+constexpr double kUnitsPerOne = 1e9;
+
+struct Check {
+  const char* id;
+  const char* label;
+  const char* value;  // JSON pointers into independent_optimum
+  const char* limit;
+  const char* unit;
+  bool always_in_summary;  // the others only when they did not pass
+};
+
+constexpr std::array<Check, 4> kChecks{
+    {{"mrcal_optimum_difference", "Largest difference to mrcal's own optimum",
+      "/max_residual_difference_px", "/limits/residual_difference_px", "10⁻⁹ px", true},
+     {"mrcal_magnification_difference", "Magnifications at mrcal's own optimum, relative",
+      "/max_magnification_difference", "/limits/magnification_difference", "10⁻⁹", false},
+     {"mrcal_rotation_difference", "Rotations between the views at mrcal's own optimum",
+      "/max_rotation_difference_rad", "/limits/rotation_difference_rad", "10⁻⁹ rad", false},
+     {"mrcal_projection_difference", "Largest difference of mrcal's projection at our solution",
+      "/evaluated_max_residual_difference_px", "/limits/residual_difference_px", "10⁻⁹ px", true}}};
+
+std::optional<double> ScaledAt(const Json& json, const char* pointer) {
+  const auto value = NumberAt(json, pointer);
+  return value ? std::optional<double>(kUnitsPerOne * *value) : std::nullopt;
+}
+
+// Places that show two significant digits.
+int DecimalsOf(double value) {
+  if (value <= 0) return 2;
+  return std::clamp(1 - static_cast<int>(std::floor(std::log10(value))), 0, 6);
+}
+
+Quantity QuantityOf(const Check& check, const Json& optimum, const Acceptance& acceptance) {
+  Quantity quantity;
+  quantity.id = check.id;
+  quantity.section = "calibration";
+  quantity.label = check.label;
+  quantity.unit = check.unit;
+  quantity.limit_kind = "max";
+  quantity.value = ScaledAt(optimum, check.value);
+  quantity.limit = ScaledAt(optimum, check.limit);
+  quantity.decimals = DecimalsOf(quantity.value.value_or(0));
+  quantity.verdict = acceptance.DecideQuantity(quantity);
+  quantity.in_summary = check.always_in_summary || quantity.verdict != Verdict::kPass;
+  return quantity;
+}
+
+// mrcal.json may say that they disagree although every difference is small, as when mrcal did not
+// converge. That must fail too, with its reason.
+void FailUnlessAgreed(const Json& optimum, std::vector<Quantity>& quantities) {
+  if (EntryAt(optimum, "/agrees") == true) return;
+  for (const Quantity& quantity : quantities)
+    if (quantity.verdict == Verdict::kFail) return;
+  quantities.front().verdict = Verdict::kFail;
+  quantities.front().label += EntryAt(optimum, "/mrcal_converged") == false
+                                  ? " (mrcal did not converge)"
+                                  : " (mrcal.json says that they disagree)";
+}
+
+void AddCheckTable(const std::vector<Quantity>& quantities, ResultsDraft& draft) {
+  ResultTable table(
+      "mrcal-check", "Check against mrcal",
+      {{"Compared", ""}, {"Difference", ""}, {"Limit", ""}, {"Unit", ""}, {"Verdict", ""}});
+  for (const Quantity& quantity : quantities) {
+    const Json json = QuantityJson(quantity, draft.acceptance.coverage_factor);
+    table.AddRow({quantity.label,
+                  {{"value", json["value"]}, {"printed", json["printed"]}},
+                  {{"value", json["limit"]}, {"printed", json["printed_limit"]}},
+                  quantity.unit,
+                  VerdictCell(quantity.verdict.value_or(Verdict::kUndecided))});
+  }
+  draft.AddTable(std::move(table));
+}
+
+std::string YesOrNo(const Json& json) {
+  return json == true ? "yes" : json == false ? "no" : kNoValue;
+}
+
+void AddCheckFacts(const Json& optimum, ResultsDraft& draft) {
+  constexpr int kRmsDecimals = 12;  // shows where the two differ
+  ResultTable table = FactTable("mrcal-facts", "What was compared");
+  table.AddFact("Model of the optimum", TextAt(optimum, "/model", kNoValue));
+  table.AddFact("Projection compared at", TextAt(optimum, "/evaluated", kNoValue));
+  table.AddFact("RMS at our optimum of this model",
+                FixedCell(NumberAt(optimum, "/rms_px"), kRmsDecimals), "px");
+  table.AddFact("RMS at mrcal's optimum",
+                FixedCell(NumberAt(optimum, "/mrcal_rms_px"), kRmsDecimals), "px");
+  table.AddFact("mrcal converged", YesOrNo(EntryAt(optimum, "/mrcal_converged")));
+  table.AddFact("Images", CountCell(NumberAt(optimum, "/images")));
+  table.AddFact("Images left out", CountCell(NumberAt(optimum, "/images_left_out")));
+  table.AddFact("Telecentricity left out",
+                SignificantCell(NumberAt(optimum, "/telecentricity_left_out_per_mm"), 2), "1/mm");
+  draft.AddTable(std::move(table));
+}
+
+void AddNotChecked(const Json& optimum, ResultsDraft& draft) {
+  const std::string reason =
+      TextAt(optimum, "/missing_because", "mrcal.json gives neither a result nor a reason");
+  Quantity quantity;
+  quantity.id = kChecks.front().id;
+  quantity.section = "calibration";
+  quantity.label = std::string(kChecks.front().label) + " (not checked: " + reason + ")";
+  quantity.unit = kChecks.front().unit;
+  quantity.limit_kind = "max";
+  draft.AddQuantity(std::move(quantity));
+  draft.diagnosis["printed_mrcal"] = "Not checked against mrcal: " + reason + ".";
+}
+
+void AddOptimum(const Json& optimum, ResultsDraft& draft) {
+  if (EntryAt(optimum, "/agrees").is_null()) return AddNotChecked(optimum, draft);
+  std::vector<Quantity> quantities;
+  for (const Check& check : kChecks)
+    quantities.push_back(QuantityOf(check, optimum, draft.acceptance));
+  FailUnlessAgreed(optimum, quantities);
+  AddCheckTable(quantities, draft);
+  AddCheckFacts(optimum, draft);
+  const bool failed = std::any_of(quantities.begin(), quantities.end(),
+                                  [](const Quantity& q) { return q.verdict == Verdict::kFail; });
+  draft.diagnosis["printed_mrcal"] =
+      failed ? "mrcal and this program DISAGREE: do not use this calibration before the reason is "
+               "known."
+             : "mrcal agrees.";
+  for (Quantity& quantity : quantities) draft.AddQuantity(std::move(quantity));
+}
+
+}  // namespace
+
+void AddDiagnosis(const Json& diagnosis, const Json& ruler, ResultsDraft& draft) {
+  draft.measured["diagnosis"] = diagnosis.is_object() && draft.measured["calibration"] == true;
+  if (draft.measured["diagnosis"] == false) return;
+  AddOptimum(EntryAt(diagnosis, "/independent_optimum"), draft);
+  AddResidualDiagnosis(EntryAt(diagnosis, "/residuals"), draft);
+  AddPinhole(EntryAt(diagnosis, "/pinhole"), ruler, draft);
+}
+
+}  // namespace telestrain
