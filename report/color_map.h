@@ -25,7 +25,7 @@ class ColorScale {
 };
 
 // An upright bar at the left of `box`, with ticks and label to its right.
-inline constexpr double kColorBarWidth_pt = 50;  // bar, ticks and label together
+inline constexpr double kColorBarWidth_pt = 46;  // bar, ticks and label together
 void DrawColorBar(PageFlow& flow, const PageBox& box, const ColorScale& colors);
 
 }  // namespace telestrain

@@ -66,7 +66,7 @@ void DrawRoseLegend(const ReportContext& context, const PageBox& box) {
     if (line)
       pdf.DrawLine({x_pt, y_pt}, {x_pt + 12, y_pt}, *line);
     else
-      pdf.FillBox({x_pt + 3, y_pt - 3, 6, 6}, look.measured);
+      pdf.FillBox({x_pt + 3, y_pt - 3, 6, 6}, kBars);
     const std::string translated = context.layout.Translate(text);
     pdf.DrawText(style, {x_pt + 15, y_pt - 2.6}, translated);
     x_pt += 15 + pdf.TextWidth_pt(style, translated) + 8;
@@ -114,8 +114,9 @@ Status DrawDiagnosisHistogram(const ReportContext& context, const PageBox& box) 
   // One count stands well above the foot of the logarithmic axis.
   const PlotAxis y{
       translate("Count"), 0.5, 1.5 * std::max(1.0, LargestOf(counts)), false, false, true};
-  const PlotAxis x{translate("Residual of one coordinate / px"), center_px(0) - *bin_px / 2,
-                   center_px(counts.size() - 1) + *bin_px / 2};
+  const double reach_px =
+      std::max(std::abs(center_px(0)), std::abs(center_px(counts.size() - 1))) + *bin_px;
+  const PlotAxis x{translate("Residual of one coordinate / px"), -reach_px, reach_px, false, false};
   Plot plot(context.flow, box, x, y);
   const Look& look = context.flow.look();
   std::vector<double> curve_x, curve_y;
@@ -153,7 +154,8 @@ Status DrawDiagnosisLengths(const ReportContext& context, const PageBox& box) {
   const double peak = scale * Rayleigh(*sigma_px, *sigma_px);
   const auto translate = [&](const char* text) { return context.layout.Translate(text); };
   const double reach_px = width_px * static_cast<double>(counts.size());
-  Plot plot(context.flow, box, {translate("Length of a corner's residual / px"), 0, reach_px},
+  Plot plot(context.flow, box,
+            {translate("Length of a corner's residual / px"), 0, reach_px, false, false},
             {translate("Count"), 0, 1.05 * std::max(LargestOf(counts), peak), true});
   std::vector<double> x, y;
   for (std::size_t i = 0; i < counts.size(); ++i) {

@@ -108,12 +108,13 @@ void DrawFieldMaps(const ReportContext& context, const PageBox& box,
   const Arrangement grid = Arrange(maps, room_pt, box.height_pt - kGap_pt);
   const double cell_x_pt = (room_pt - kGap_pt * (grid.columns - 1)) / grid.columns;
   const ColorScale colors(scale);
-  double bottom_pt = box.top_pt();
+  double tallest_px = 1, bottom_pt = box.top_pt();
+  for (const FieldMap& map : maps) tallest_px = std::max(tallest_px, HeightOf_px(map));
+  const double step_y_pt = grid.points_per_px * tallest_px + kTitle_pt + kGap_pt;
   for (int i = 0; i < static_cast<int>(maps.size()); ++i) {
     const FieldMap& map = maps[static_cast<std::size_t>(i)];
     const double width_pt = grid.points_per_px * WidthOf_px(map);
     const double height_pt = grid.points_per_px * HeightOf_px(map);
-    const double step_y_pt = (box.height_pt - kGap_pt) / grid.rows;
     const double x_pt =
         box.left_pt + (i % grid.columns) * (cell_x_pt + kGap_pt) + (cell_x_pt - width_pt) / 2;
     const double top_pt = box.top_pt() - (i / grid.columns) * step_y_pt - kTitle_pt;

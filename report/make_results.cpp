@@ -125,7 +125,8 @@ Json ResultsJson(ResultsDraft draft, const Json& inputs, const std::string& verd
 Outcome OutcomeOf(const ResultsDraft& draft) {
   std::vector<Verdict> verdicts;
   for (const Quantity& quantity : draft.quantities)
-    verdicts.push_back(quantity.verdict.value_or(Verdict::kUndecided));
+    if (!quantity.is_check || quantity.verdict != Verdict::kPass)
+      verdicts.push_back(quantity.verdict.value_or(Verdict::kUndecided));
   Outcome outcome{VerdictName(OverallVerdict(verdicts)), false};
   const bool all_decided = UndecidedSentence(draft).empty();
   if (outcome.verdict == "pass" && !all_decided) outcome.verdict = "undecided";

@@ -8,8 +8,8 @@ namespace telestrain {
 namespace {
 
 // Columns of the table "pinhole" as results_of_pinhole.cpp writes them.
-constexpr const char *kModel = "/0", *kDistance = "/1/value", *kRms = "/3/value",
-                     *kRulerRmse = "/6/value";
+constexpr const char *kDistance = "/1/value", *kCoefficients = "/2/value", *kRms = "/4/value",
+                     *kRulerRmse = "/7/value";
 
 struct Series {
   std::vector<double> distances_m, values;
@@ -31,7 +31,8 @@ Comparison ReadComparison(const ReportContext& context, const char* column) {
       continue;
     }
     if (*distance_m <= 0) continue;
-    Series& series = TextAt(row, kModel) == "pinhole" ? comparison.plain : comparison.distorted;
+    Series& series =
+        NumberAt(row, kCoefficients).value_or(0) > 0 ? comparison.distorted : comparison.plain;
     series.distances_m.push_back(*distance_m);
     series.values.push_back(*value);
   }

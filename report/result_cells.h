@@ -72,6 +72,8 @@ struct Quantity {
   std::optional<double> limit;
   std::string limit_kind = "max_abs";  // or "max" for a quantity that cannot be negative
   std::optional<Verdict> verdict;
+  // A check of our own: it can fail the report, but to pass it accepts nothing.
+  bool is_check = false;
   int decimals = 3;        // when there is no uncertainty
   bool in_summary = true;  // a row of the report's first table
 };

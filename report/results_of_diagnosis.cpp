@@ -47,6 +47,7 @@ Quantity QuantityOf(const Check& check, const Json& optimum, const Acceptance& a
   quantity.label = check.label;
   quantity.unit = check.unit;
   quantity.limit_kind = "max";
+  quantity.is_check = true;
   quantity.value = ScaledAt(optimum, check.value);
   quantity.limit = ScaledAt(optimum, check.limit);
   quantity.decimals = DecimalsOf(quantity.value.value_or(0));

@@ -60,6 +60,7 @@ void AddArms(const Json& pinhole, const RulerErrors& telecentric_um, ResultsDraf
   ResultTable table("pinhole", "Telecentric against pinhole",
                     {{"Model", ""},
                      {"D", "m"},
+                     {"Coefficients", ""},
                      {"Solver", ""},
                      {"RMS", "px"},
                      {"Mean", "px"},
@@ -71,15 +72,15 @@ void AddArms(const Json& pinhole, const RulerErrors& telecentric_um, ResultsDraf
   const auto add = [&](const Json& arm, const char* model, const RulerErrors& ruler) {
     const auto pixels = [&](const char* pointer) { return FixedCell(NumberAt(arm, pointer), 4); };
     const Json& converged = EntryAt(arm, "/converged");
-    table.AddRow({model, ExactCell(DistanceOf_m(arm)), TextAt(arm, "/solver", "telestrain"),
-                  pixels("/rms_px"), pixels("/mean_px"), pixels("/max_px"),
-                  FixedCell(ruler.rmse_um, 3), FixedCell(ruler.max_um, 3),
+    table.AddRow({model, ExactCell(DistanceOf_m(arm)),
+                  CountCell(NumberAt(arm, "/distortion_coefficients")),
+                  TextAt(arm, "/solver", "telestrain"), pixels("/rms_px"), pixels("/mean_px"),
+                  pixels("/max_px"), FixedCell(ruler.rmse_um, 3), FixedCell(ruler.max_um, 3),
                   converged == false ? "no" : "yes", StartsText(arm)});
   };
-  add(EntryAt(pinhole, "/telecentric"), "telecentric, as calibrated", telecentric_um);
+  add(EntryAt(pinhole, "/telecentric"), "telecentric", telecentric_um);
   for (const Json& arm : ListAt(pinhole, "/arms"))
-    add(arm, HasCoefficients(arm) ? "pinhole, 5 coefficients" : "pinhole",
-        {0, NumberAt(arm, "/ruler_rmse_um"), NumberAt(arm, "/ruler_max_um")});
+    add(arm, "pinhole", {0, NumberAt(arm, "/ruler_rmse_um"), NumberAt(arm, "/ruler_max_um")});
   draft.AddTable(std::move(table));
 }
 

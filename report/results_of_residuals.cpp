@@ -92,11 +92,12 @@ void AddViews(const Json& residuals, ResultsDraft& draft) {
                      {"Worst corner", "px"},
                      {"RMS / stated noise", ""}});
   const auto add = [&](const std::string& name, const Json& view) {
-    table.AddRow(
-        {name, CountCell(NumberAt(view, "/corners")), FixedCell(NumberAt(view, "/rms_px"), 4),
-         FixedCell(NumberAt(view, "/rms_per_corner_px"), 4),
-         FixedCell(NumberAt(view, "/mean_px"), 5), FixedCell(NumberAt(view, "/worst_corner_px"), 4),
-         FixedCell(NumberAt(view, "/rms_whitened"), 3)});
+    table.AddRow({name, CountCell(NumberAt(view, "/corners")),
+                  FixedCell(NumberAt(view, "/rms_px"), 4),
+                  FixedCell(NumberAt(view, "/rms_per_corner_px"), 4),
+                  SignificantCell(NumberAt(view, "/mean_px"), 2),
+                  FixedCell(NumberAt(view, "/worst_corner_px"), 4),
+                  FixedCell(NumberAt(view, "/rms_whitened"), 3)});
   };
   for (const Json& view : ListAt(residuals, "/views")) add(TextAt(view, "/view", "?"), view);
   add("all", residuals);

@@ -39,4 +39,7 @@ inline std::string Numbered(const std::string& stem, int index) {
 // calibration.json; fills `residuals_csv` with the residuals that its histogram counts.
 Json MakeCalibration(std::string& residuals_csv);
 
+// mrcal.json of the same session.
+Json MakeDiagnosis();
+
 }  // namespace telestrain

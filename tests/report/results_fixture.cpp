@@ -207,6 +207,7 @@ ResultsFixture PlausibleResults() {
   fixture.inputs = MakeInputs();
   fixture.detection = MakeDetection();
   fixture.calibration = MakeCalibration(fixture.residuals_csv);
+  fixture.diagnosis = MakeDiagnosis();
   fixture.ruler = MakeRuler();
   fixture.strain = MakeStrain();
   return fixture;
@@ -221,6 +222,7 @@ void WriteResults(const ResultsFixture& fixture, const std::filesystem::path& fo
   write("inputs.json", fixture.inputs);
   write("detection.json", fixture.detection);
   write("calibration.json", fixture.calibration);
+  write("mrcal.json", fixture.diagnosis);
   write("ruler.json", fixture.ruler);
   write("strain.json", fixture.strain);
   if (!fixture.calibration.is_null()) WriteText(folder / "residuals.csv", fixture.residuals_csv);

@@ -10,7 +10,7 @@ namespace telestrain {
 // images, 6 pipe states with gauges, 46 input files, three pictures. The numbers are plausible and
 // come from a fixed pseudo-random sequence, so every run writes the same bytes.
 struct ResultsFixture {
-  nlohmann::ordered_json inputs, detection, calibration, ruler, strain;
+  nlohmann::ordered_json inputs, detection, calibration, diagnosis, ruler, strain;
   std::string residuals_csv;
   bool pictures = true;
 };
