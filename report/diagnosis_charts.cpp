@@ -10,7 +10,8 @@ namespace telestrain {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kBand_sigma = 3;  // of a sector's count, around the expected one
+constexpr double kBand_sigma = 3;       // of a sector's count, around the expected one
+constexpr double kTickSpacing_pt = 26;  // these charts are narrow
 const Color kBars = ColorOf(0xA9C2DE);
 
 std::vector<double> NumbersOf(const Json& list) {
@@ -116,7 +117,13 @@ Status DrawDiagnosisHistogram(const ReportContext& context, const PageBox& box) 
       translate("Count"), 0.5, 1.5 * std::max(1.0, LargestOf(counts)), false, false, true};
   const double reach_px =
       std::max(std::abs(center_px(0)), std::abs(center_px(counts.size() - 1))) + *bin_px;
-  const PlotAxis x{translate("Residual of one coordinate / px"), -reach_px, reach_px, false, false};
+  const PlotAxis x{translate("Residual of one coordinate / px"),
+                   -reach_px,
+                   reach_px,
+                   false,
+                   false,
+                   false,
+                   kTickSpacing_pt};
   Plot plot(context.flow, box, x, y);
   const Look& look = context.flow.look();
   std::vector<double> curve_x, curve_y;
@@ -155,7 +162,8 @@ Status DrawDiagnosisLengths(const ReportContext& context, const PageBox& box) {
   const auto translate = [&](const char* text) { return context.layout.Translate(text); };
   const double reach_px = width_px * static_cast<double>(counts.size());
   Plot plot(context.flow, box,
-            {translate("Length of a corner's residual / px"), 0, reach_px, false, false},
+            {translate("Length of a corner's residual / px"), 0, reach_px, false, false, false,
+             kTickSpacing_pt},
             {translate("Count"), 0, 1.05 * std::max(LargestOf(counts), peak), true});
   std::vector<double> x, y;
   for (std::size_t i = 0; i < counts.size(); ++i) {

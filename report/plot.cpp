@@ -60,7 +60,7 @@ Plot::Plot(PageFlow& flow, const PageBox& outer, const PlotAxis& x, const PlotAx
   const double left_pt = tick_pt + (y.label.empty() ? 8 : 21);
   area_ = {outer.left_pt + left_pt, outer.bottom_pt + 30, outer.width_pt - left_pt - 10,
            outer.height_pt - 30 - kTop_pt};
-  x_ = PlotScale(x, area_.width_pt, kTickSpacingX_pt);
+  x_ = PlotScale(x, area_.width_pt, x.spacing_pt > 0 ? x.spacing_pt : kTickSpacingX_pt);
   DrawGrid(x, y);
   if (title.empty()) return;
   const TextStyle style{Face::kBold, kTitleType_pt, flow.look().ink};

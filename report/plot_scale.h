@@ -12,6 +12,7 @@ struct PlotAxis {
   bool whole_numbers = false;
   bool widen = true;         // to whole steps
   bool logarithmic = false;  // both ends must be positive (a broken contract otherwise)
+  double spacing_pt = 0;     // of labelled ticks along x; 0: the plot's own
 };
 
 // Where the values of an axis stand along its length, and its ticks.

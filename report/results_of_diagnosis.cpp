@@ -91,16 +91,16 @@ void AddCheckFacts(const Json& optimum, ResultsDraft& draft) {
   constexpr int kRmsDecimals = 12;  // shows where the two differ
   ResultTable table = FactTable("mrcal-facts", "What was compared");
   table.AddFact("Model of the optimum", TextAt(optimum, "/model", kNoValue));
-  table.AddFact("Projection compared at", TextAt(optimum, "/evaluated", kNoValue));
   table.AddFact("RMS at our optimum of this model",
                 FixedCell(NumberAt(optimum, "/rms_px"), kRmsDecimals), "px");
   table.AddFact("RMS at mrcal's optimum",
                 FixedCell(NumberAt(optimum, "/mrcal_rms_px"), kRmsDecimals), "px");
+  table.AddFact("Telecentricity left out",
+                SignificantCell(NumberAt(optimum, "/telecentricity_left_out_per_mm"), 2), "1/mm");
+  table.AddFact("Projection compared at", TextAt(optimum, "/evaluated", kNoValue));
   table.AddFact("mrcal converged", YesOrNo(EntryAt(optimum, "/mrcal_converged")));
   table.AddFact("Images", CountCell(NumberAt(optimum, "/images")));
   table.AddFact("Images left out", CountCell(NumberAt(optimum, "/images_left_out")));
-  table.AddFact("Telecentricity left out",
-                SignificantCell(NumberAt(optimum, "/telecentricity_left_out_per_mm"), 2), "1/mm");
   draft.AddTable(std::move(table));
 }
 

@@ -12,10 +12,6 @@
 #include "report/json_lookup.h"
 #include "results_fixture.h"
 
-// Skips the running test when the tool is not installed.
-#define NEEDS_TOOL(path, name) \
-  if (std::string(path).empty()) GTEST_SKIP() << name << " is not installed"
-
 namespace telestrain {
 namespace {
 

@@ -4,9 +4,6 @@
 #include "report/acceptance_report.h"
 #include "results_fixture.h"
 
-#define NEEDS_TOOL(path, name) \
-  if (std::string(path).empty()) GTEST_SKIP() << name << " is not installed"
-
 namespace telestrain {
 namespace {
 

@@ -2,6 +2,10 @@
 
 #include <string>
 
+// Skips the running test when the tool is not installed.
+#define NEEDS_TOOL(path, name) \
+  if (std::string(path).empty()) GTEST_SKIP() << name << " is not installed"
+
 namespace telestrain {
 
 // The standard output (and error output) of a command line, and whether it ended with 0.

@@ -11,10 +11,6 @@
 #include "results_fixture.h"
 #include "study_fixture.h"
 
-// Skips the running test when the tool is not installed.
-#define NEEDS_TOOL(path, name) \
-  if (std::string(path).empty()) GTEST_SKIP() << name << " is not installed"
-
 namespace telestrain {
 namespace {
 
