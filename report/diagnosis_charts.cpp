@@ -12,6 +12,7 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr double kBand_sigma = 3;       // of a sector's count, around the expected one
 constexpr double kTickSpacing_pt = 26;  // these charts are narrow
+constexpr double kLeastCount = 0.25;    // drawn on logarithmic counts
 const Color kBars = ColorOf(0xA9C2DE);
 
 std::vector<double> NumbersOf(const Json& list) {
@@ -23,6 +24,13 @@ std::vector<double> NumbersOf(const Json& list) {
 
 double LargestOf(const std::vector<double>& values) {
   return values.empty() ? 0 : *std::max_element(values.begin(), values.end());
+}
+
+void DrawBars(Plot& plot, double from_px, double bin_px, const std::vector<double>& counts) {
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    const double left_px = from_px + bin_px * static_cast<double>(i);
+    if (counts[i] > 0) plot.DrawBar(left_px, left_px + 0.92 * bin_px, counts[i], kBars);
+  }
 }
 
 // A rose: the area from the middle to a circle, between two directions.
@@ -126,13 +134,11 @@ Status DrawDiagnosisHistogram(const ReportContext& context, const PageBox& box) 
                    kTickSpacing_pt};
   Plot plot(context.flow, box, x, y);
   const Look& look = context.flow.look();
+  DrawBars(plot, center_px(0) - *bin_px / 2, *bin_px, counts);
   std::vector<double> curve_x, curve_y;
-  for (std::size_t i = 0; i < counts.size(); ++i) {
-    const double left_px = center_px(i) - *bin_px / 2;
-    if (counts[i] > 0) plot.DrawBar(left_px, left_px + 0.92 * *bin_px, counts[i], kBars);
-    if (gaussian[i] <= 0) continue;
+  for (std::size_t i = 0; i < gaussian.size(); ++i) {
     curve_x.push_back(center_px(i));
-    curve_y.push_back(gaussian[i]);
+    curve_y.push_back(std::max(gaussian[i], kLeastCount));  // the axis has no zero
   }
   plot.DrawCurve(curve_x, curve_y, {look.reference, 1.2});
   plot.DrawLegend({{translate("residuals"), Marker::kSquare, look.measured},
@@ -166,10 +172,7 @@ Status DrawDiagnosisLengths(const ReportContext& context, const PageBox& box) {
              kTickSpacing_pt},
             {translate("Count"), 0, 1.05 * std::max(LargestOf(counts), peak), true});
   std::vector<double> x, y;
-  for (std::size_t i = 0; i < counts.size(); ++i) {
-    const double left_px = width_px * static_cast<double>(i);
-    if (counts[i] > 0) plot.DrawBar(left_px, left_px + 0.92 * width_px, counts[i], kBars);
-  }
+  DrawBars(plot, 0, width_px, counts);
   for (int i = 0; i <= 200; ++i) {
     x.push_back(reach_px * i / 200);
     y.push_back(scale * Rayleigh(x.back(), *sigma_px));
