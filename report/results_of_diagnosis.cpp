@@ -52,7 +52,7 @@ Quantity QuantityOf(const Check& check, const Json& optimum, const Acceptance& a
   quantity.limit = ScaledAt(optimum, check.limit);
   quantity.decimals = DecimalsOf(quantity.value.value_or(0));
   quantity.verdict = acceptance.DecideQuantity(quantity);
-  quantity.in_summary = check.always_in_summary || quantity.verdict != Verdict::kPass;
+  quantity.in_summary = check.always_in_summary || quantity.verdict == Verdict::kFail;
   return quantity;
 }
 
