@@ -92,6 +92,31 @@ std::vector<FieldMap> MapsOf(const ReportContext& context, const Json& diagnosis
   return maps;
 }
 
+// The maps of mrcal.json's part `uncertainty`; of the list `key`.
+std::vector<FieldMap> UncertaintyMapsOf(const ReportContext& context, const Json& diagnosis,
+                                        const char* key) {
+  std::vector<FieldMap> maps;
+  for (const Json& entry : ListAt(diagnosis, "/uncertainty/maps")) {
+    const auto columns = NumberAt(entry, "/columns"), rows = NumberAt(entry, "/rows");
+    const auto step_x_px = NumberAt(entry, "/step_x_px");
+    const auto step_y_px = NumberAt(entry, "/step_y_px");
+    const Json& values = ListAt(entry, key);
+    if (!columns || !rows || !step_x_px || !step_y_px || *step_x_px <= 0 || *step_y_px <= 0 ||
+        *columns < 2 || static_cast<double>(values.size()) != *columns * *rows)
+      continue;
+    FieldMap map{context.layout.Translate("View") + " " + TextAt(entry, "/view", "?"),
+                 static_cast<int>(*columns),
+                 static_cast<int>(*rows),
+                 *step_x_px,
+                 *step_y_px,
+                 {}};
+    for (std::size_t i = 0; i < values.size(); ++i)
+      map.values.push_back(NumberAt(values, "/" + std::to_string(i)));
+    maps.push_back(std::move(map));
+  }
+  return maps;
+}
+
 double LargestOf(const std::vector<FieldMap>& maps) {
   double largest = 0;
   for (const FieldMap& map : maps)
@@ -143,6 +168,22 @@ Status DrawRegionalDeviations(const ReportContext& context, const PageBox& box) 
   const std::vector<FieldMap> maps = MapsOf(context, diagnosis, "/sd_px");
   DrawFieldMaps(context, box, maps,
                 {context.layout.Translate("Standard deviation / px"), 0, LargestOf(maps)});
+  return {};
+}
+
+Status DrawProjectionUncertainty(const ReportContext& context, const PageBox& box) {
+  TELESTRAIN_ASSIGN_OR_RETURN(const Json diagnosis, ReadDiagnosis(context.folder));
+  const std::vector<FieldMap> maps = UncertaintyMapsOf(context, diagnosis, "/sigma_of_noise_um");
+  DrawFieldMaps(context, box, maps,
+                {context.layout.Translate("Standard uncertainty / µm"), 0, LargestOf(maps)});
+  return {};
+}
+
+Status DrawProjectionUncertaintyOfEverything(const ReportContext& context, const PageBox& box) {
+  TELESTRAIN_ASSIGN_OR_RETURN(const Json diagnosis, ReadDiagnosis(context.folder));
+  const std::vector<FieldMap> maps = UncertaintyMapsOf(context, diagnosis, "/sigma_um");
+  DrawFieldMaps(context, box, maps,
+                {context.layout.Translate("Standard uncertainty / µm"), 0, LargestOf(maps)});
   return {};
 }
 

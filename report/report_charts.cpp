@@ -225,6 +225,8 @@ Status DrawChart(const ReportContext& context, const std::string& name, const Pa
       {"diagnosis-directions", DrawDiagnosisDirections},
       {"regional-means", DrawRegionalMeans},
       {"regional-deviations", DrawRegionalDeviations},
+      {"uncertainty-of-noise", DrawProjectionUncertainty},
+      {"uncertainty-of-everything", DrawProjectionUncertaintyOfEverything},
       {"pinhole-rms", DrawPinholeRms},
       {"pinhole-ruler", DrawPinholeRuler}};
   return kDraw.at(name)(context, box);

@@ -24,6 +24,9 @@ Status DrawDiagnosisLengths(const ReportContext& context, const PageBox& box);
 Status DrawDiagnosisDirections(const ReportContext& context, const PageBox& box);
 Status DrawRegionalMeans(const ReportContext& context, const PageBox& box);
 Status DrawRegionalDeviations(const ReportContext& context, const PageBox& box);
+// How well each view knows where it projects: by the noise of its calibration, and by everything.
+Status DrawProjectionUncertainty(const ReportContext& context, const PageBox& box);
+Status DrawProjectionUncertaintyOfEverything(const ReportContext& context, const PageBox& box);
 // From the table "pinhole" of results.json: against the working distance, both axes logarithmic.
 Status DrawPinholeRms(const ReportContext& context, const PageBox& box);
 Status DrawPinholeRuler(const ReportContext& context, const PageBox& box);

@@ -54,16 +54,21 @@ const std::vector<std::string>& TableNames() {
                                                   "residual-findings",
                                                   "residual-boards",
                                                   "outlier-replay",
+                                                  "uncertainty",
                                                   "pinhole"};
   return kNames;
 }
 
 const std::vector<std::string>& ChartNames() {
   static const std::vector<std::string> kNames = {
-      "residual-field",    "residual-histogram",   "residual-scatter", "ruler-errors",
-      "strain-states",     "strain-gauges",        "strain-errors",    "diagnosis-histogram",
-      "diagnosis-lengths", "diagnosis-directions", "regional-means",   "regional-deviations",
-      "pinhole-rms",       "pinhole-ruler"};
+      "residual-field",       "residual-histogram",
+      "residual-scatter",     "ruler-errors",
+      "strain-states",        "strain-gauges",
+      "strain-errors",        "diagnosis-histogram",
+      "diagnosis-lengths",    "diagnosis-directions",
+      "regional-means",       "regional-deviations",
+      "pinhole-rms",          "pinhole-ruler",
+      "uncertainty-of-noise", "uncertainty-of-everything"};
   return kNames;
 }
 

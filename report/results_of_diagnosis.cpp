@@ -134,6 +134,27 @@ void AddOptimum(const Json& optimum, ResultsDraft& draft) {
   for (Quantity& quantity : quantities) draft.AddQuantity(std::move(quantity));
 }
 
+// What the uncertainty of the calibration means for what is measured with it.
+void AddUncertainty(const Json& uncertainty, ResultsDraft& draft) {
+  const Json& means = EntryAt(uncertainty, "/means_for");
+  if (!EntryAt(means, "/length_um").is_object()) return;
+  constexpr std::array<std::array<const char*, 3>, 4> kRows{
+      {{"A length between the middles of the fields", "/length_um", "µm"},
+       {"Strain feigned by a shift of 0.1 mm", "/shift_microstrain", "µε"},
+       {"Strain feigned by a turn of 0.1°", "/turn_microstrain", "µε"},
+       {"Error of a true strain of 1000 µε", "/true_strain_microstrain", "µε"}}};
+  ResultTable table("uncertainty",
+                    "What the calibration's uncertainty means (one standard uncertainty)",
+                    {{"For", ""},
+                     {"By the noise of its images", ""},
+                     {"With the target's certificate", ""},
+                     {"Unit", ""}});
+  for (const auto& [what, key, unit] : kRows)
+    table.AddRow({what, SignificantCell(NumberAt(means, std::string(key) + "/of_noise"), 2),
+                  SignificantCell(NumberAt(means, std::string(key) + "/of_everything"), 2), unit});
+  draft.AddTable(std::move(table));
+}
+
 }  // namespace
 
 void AddDiagnosis(const Json& diagnosis, const Json& ruler, ResultsDraft& draft) {
@@ -141,6 +162,7 @@ void AddDiagnosis(const Json& diagnosis, const Json& ruler, ResultsDraft& draft)
   if (draft.measured["diagnosis"] == false) return;
   AddOptimum(EntryAt(diagnosis, "/independent_optimum"), draft);
   AddResidualDiagnosis(EntryAt(diagnosis, "/residuals"), draft);
+  AddUncertainty(EntryAt(diagnosis, "/uncertainty"), draft);
   AddPinhole(EntryAt(diagnosis, "/pinhole"), ruler, draft);
 }
 

@@ -19,9 +19,9 @@ using testing_support::SyntheticArray;
 
 void Save(const SyntheticArray& array, const Calibration& calibration,
           const ScratchFolder& folder) {
-  ASSERT_TRUE(WriteJson(folder.path() / "calibration.json",
-                        CalibrationJson(array.session, calibration, {}))
-                  .ok());
+  ASSERT_TRUE(
+      WriteJson(folder.path() / "calibration.json", CalibrationJson(array.session, calibration, {}))
+          .ok());
   std::ofstream(folder.path() / "residuals.csv") << ResidualsCsv(array.session, calibration);
 }
 
