@@ -171,6 +171,33 @@ Json MakeArm(double distance_mm, int coefficients, double rms_px, double rmse_um
           {"wrong_minima", distance_mm == 1000 ? 1 : 0}};
 }
 
+// Grows from the middle of the field outwards, as a map does.
+Json MakeUncertainty() {
+  constexpr int kColumns = 6, kRows = 5;
+  Json maps = Json::array();
+  for (const char* view : {"U1", "U2"}) {
+    std::vector<double> sigma_um;
+    for (int i = 0; i < kColumns * kRows; ++i)
+      sigma_um.push_back(0.01 + 0.002 * std::hypot(i % kColumns - 2.5, i / kColumns - 2.0));
+    maps.push_back({{"view", view},
+                    {"columns", kColumns},
+                    {"rows", kRows},
+                    {"step_x_px", 259.0},
+                    {"step_y_px", 242.75},
+                    {"sigma_um", sigma_um},
+                    {"sigma_of_noise_um", sigma_um}});
+  }
+  const auto share = [](double noise, double everything) {
+    return Json{{"of_noise", noise}, {"of_everything", everything}};
+  };
+  return {{"maps", maps},
+          {"means_for",
+           {{"length_um", share(0.00312, 0.251)},
+            {"shift_microstrain", share(0.0161, 0.133)},
+            {"turn_microstrain", share(0.00523, 0.114)},
+            {"true_strain_microstrain", share(0.00124, 0.0172)}}}};
+}
+
 }  // namespace
 
 Json MakeDiagnosis() {
@@ -178,6 +205,7 @@ Json MakeDiagnosis() {
       {"schema", "telestrain.mrcal/1"},
       {"independent_optimum", MakeOptimum()},
       {"residuals", MakeResiduals()},
+      {"uncertainty", MakeUncertainty()},
       {"pinhole",
        {{"telecentric", {{"rms_px", 0.0437}, {"mean_px", 0.0546}, {"max_px", 0.187}}},
         {"arms",

@@ -45,7 +45,8 @@ TEST_F(DiagnosisReport, ShowsEveryChart) {
   for (const char* wanted :
        {"3 Diagnosis of the calibration", "Residual of one coordinate / px", "Gaussian",
         "Length of a corner's residual / px", "Rayleigh", "± 3 σ", "Working distance D / m",
-        "telecentric", "mrcal agrees.", "The residuals are noise."})
+        "telecentric", "mrcal agrees.", "The residuals are noise.",
+        "How well the views know where they project", "View U2", "Standard uncertainty / µm"})
     EXPECT_NE(text.find(WithoutSpace(wanted)), std::string::npos) << wanted;
   EXPECT_EQ(Count(text, "notmeasured"), 0);
 }
@@ -90,7 +91,8 @@ TEST_F(DiagnosisReport, BrokenPartsAreDrawnAsMissing) {
   residuals["directions"]["counts"] = "many";
   for (auto& view : residuals["views"]) view["regional"]["mean_px"] = {1, 2, 3};
   for (auto& view : residuals["views"]) view["regional"]["step_x_px"] = -1;
-  EXPECT_EQ(Count(TextOfReport(), "notmeasured"), 5);
+  fixture_.diagnosis["uncertainty"]["maps"] = {{{"view", "U1"}, {"columns", -1}}};
+  EXPECT_EQ(Count(TextOfReport(), "notmeasured"), 7);
 }
 
 }  // namespace
