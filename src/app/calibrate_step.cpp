@@ -56,6 +56,15 @@ void SayCalibration(const Calibration& calibration, Console& console) {
         "  " +
         CountText(static_cast<std::size_t>(calibration.corners_below_half_weight), "corner") +
         " beyond three standard deviations: weighed down, but counted in the RMS");
+  const auto& rejected = calibration.data.rejected;
+  const auto boards = std::count_if(rejected.begin(), rejected.end(), [](const auto& r) {
+    return r.whole_board && r.corners > 0 && r.reason != kCulledReason;
+  });
+  if (boards > 0)
+    console.Warn(
+        CountText(static_cast<std::size_t>(boards), "board") +
+        " with corners left out whole; 'rejected' in calibration.json says why, 'telestrain "
+        "diagnose' what they look like");
   if (calibration.corners_rejected > 0)
     console.Note("  " +
                  CountText(static_cast<std::size_t>(calibration.corners_rejected), "corner") +

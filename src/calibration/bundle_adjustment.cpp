@@ -149,7 +149,10 @@ Result<BundleResult> AdjustBundle(const CalibrationData& data, const ArrayState&
   CountInfluence(data, options.robust_sigmas, result);
   result.iterations = static_cast<int>(summary.iterations.size());
   result.termination = summary.message;
-  if (summary.termination_type != ceres::CONVERGENCE || !std::isfinite(result.TotalChi2()))
+  const bool has_ended =
+      summary.termination_type == ceres::CONVERGENCE ||
+      (!options.must_converge && summary.termination_type == ceres::NO_CONVERGENCE);
+  if (!has_ended || !std::isfinite(result.TotalChi2()))
     return EstimationFailed("the bundle adjustment did not converge after " +
                             std::to_string(result.iterations) + " iterations: " + summary.message);
   if (options.want_covariance) {

@@ -26,6 +26,9 @@ struct BundleOptions {
   bool estimate_bow = false;
   bool want_covariance = false;
   int max_iterations = 100;
+  // Whether to fail where the iterations end before the minimum. Not in a search for outliers,
+  // which wants to know what stands out: a robust loss over gross mistakes can be slow.
+  bool must_converge = true;
 };
 
 // Of the global parameters together: lenses and views as in ArrayCalibration::ParameterNames, then

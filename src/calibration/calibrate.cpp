@@ -15,7 +15,7 @@
 namespace telestrain {
 namespace {
 
-constexpr int kOutlierRounds = 6;
+constexpr int kOutlierRounds = 8;
 constexpr double kRobustSigmas = 3;  // scale of Cauchy's loss
 constexpr int kScaleRounds = 2;
 // Where the search for outliers starts: flexible enough for any real lens.
@@ -115,6 +115,7 @@ Result<ArrayState> SolveRobustly(const Session& session, const CalibrationData& 
                                  const ArrayState& seed, const CalibrationOptions& choices) {
   BundleOptions options = OptionsFor(session, choices);
   options.model = kSearchModel;
+  options.must_converge = false;
   TELESTRAIN_ASSIGN_OR_RETURN(BundleResult solved, AdjustBundle(data, seed, options));
   for (int round = 0; round < kScaleRounds; ++round) {
     options.robust_sigmas = kRobustSigmas * std::max(1.0, RobustSigma(data, solved.state));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "base/numbers.h"
 
@@ -18,6 +19,9 @@ constexpr double kSmallestSigma = 0.05;
 constexpr double kOutlierFloor_px = 0.1;
 // A board may be this much worse than the typical one before its corners count as outliers.
 constexpr double kWorstBoardSigmas = 10;
+
+constexpr const char* kDoesNotFit =
+    "the board does not fit the array (more than a quarter of its corners are outliers)";
 
 // Whitened residuals, column per corner, of every board.
 std::vector<Eigen::Matrix2Xd> WhitenedErrors(const CalibrationData& data, const ArrayState& state) {
@@ -80,6 +84,37 @@ bool KeepsTooFew(const BoardData& board, const BoardOutliers& outliers, int grid
   return !GiveAnAffineImage(kept, grid_columns);
 }
 
+// A board that does not fit pulls the pose of its image away from the others: of every image only
+// the worst such board goes, and the others are judged again without it. An image that has lost one
+// so and still has one that does not fit goes whole: its boards cannot tell which of them is wrong.
+void SpareItsNeighbours(const CalibrationData& data, const std::vector<Eigen::Matrix2Xd>& errors,
+                        std::vector<BoardOutliers>& found) {
+  std::map<int, std::size_t> worst;  // of an image
+  const auto misfit = [&](std::size_t b) {
+    return errors[b].squaredNorm() / static_cast<double>(errors[b].cols());
+  };
+  for (std::size_t b = 0; b < found.size(); ++b) {
+    if (!found[b].whole_board) continue;
+    const auto at = worst.try_emplace(data.boards[b].image, b).first;
+    if (misfit(b) > misfit(at->second)) at->second = b;
+  }
+  const auto has_lost_one = [&](int image) {
+    return std::any_of(data.rejected.begin(), data.rejected.end(),
+                       [&](const RejectedObservation& r) {
+                         return r.image == data.images[static_cast<std::size_t>(image)].image &&
+                                r.reason == kDoesNotFit;
+                       });
+  };
+  for (std::size_t b = 0; b < found.size(); ++b) {
+    const auto at = worst.find(data.boards[b].image);
+    if (at == worst.end() || at->second == b) continue;
+    found[b] = {};
+    found[b].whole_board = has_lost_one(at->first);
+    found[b].count = found[b].whole_board ? static_cast<int>(errors[b].cols()) : 0;
+    found[b].remove.assign(static_cast<std::size_t>(errors[b].cols()), false);
+  }
+}
+
 double SampleSigma(const std::vector<double>& sizes) {
   double squares = 0;
   for (const double size : sizes) squares += size * size;
@@ -100,13 +135,17 @@ int RemoveOutliers(const Session& session, const ArrayState& state, const Outlie
   const double sigma =
       by_mrcal ? SampleSigma(sizes) : std::max(kSmallestSigma, kSigmaOfMedian * Median(sizes));
   if (*std::max_element(sizes.begin(), sizes.end()) <= options.sigmas * sigma) return 0;
+  std::vector<BoardOutliers> found;
+  for (std::size_t b = 0; b < data.boards.size(); ++b)
+    found.push_back(by_mrcal ? FindMrcalOutliers(errors[b], options.reject_sigmas * sigma)
+                             : FindOutliers(errors[b], ReprojectionErrors_px(state, data.boards[b]),
+                                            sigma, options));
+  if (!by_mrcal) SpareItsNeighbours(data, errors, found);
   int removed = 0;
   std::vector<bool> drop_board(data.boards.size(), false);
   for (std::size_t b = 0; b < data.boards.size(); ++b) {
     BoardData& board = data.boards[b];
-    BoardOutliers outliers =
-        by_mrcal ? FindMrcalOutliers(errors[b], options.reject_sigmas * sigma)
-                 : FindOutliers(errors[b], ReprojectionErrors_px(state, board), sigma, options);
+    BoardOutliers& outliers = found[b];
     if (outliers.count == 0) continue;
     const bool too_few = KeepsTooFew(board, outliers, data.target.columns);
     outliers.whole_board = outliers.whole_board || too_few;
@@ -115,11 +154,9 @@ int RemoveOutliers(const Session& session, const ArrayState& state, const Outlie
     removed += outliers.count;
     data.rejected.push_back({data.images[static_cast<std::size_t>(board.image)].image,
                              session.views[static_cast<std::size_t>(board.view)].name,
-                             too_few ? "too few corners of the board are no outliers"
-                             : outliers.whole_board
-                                 ? "the board does not fit the array (more than a quarter of its "
-                                   "corners are outliers)"
-                                 : "corners are outliers",
+                             too_few                ? "too few corners of the board are no outliers"
+                             : outliers.whole_board ? kDoesNotFit
+                                                    : "corners are outliers",
                              outliers.count, outliers.whole_board});
     board.RemoveCorners(outliers.remove);
   }

@@ -93,6 +93,8 @@ std::vector<PatternFinding> ExplainLeftOutBoards(const CalibrationData& all,
     image_index[used.images[i].image] = static_cast<int>(i);
   std::set<std::pair<int, int>> kept;
   for (const BoardData& board : used.boards) kept.emplace(board.image, board.view);
+  const double fits_px =
+      std::max(0.1, 3 * Summarise(ResidualsOf(used, state)).rms_of_inliers_per_scalar_px);
   std::vector<PatternFinding> findings;
   for (BoardData board : all.boards) {
     const auto found = image_index.find(all.images[static_cast<std::size_t>(board.image)].image);
@@ -100,6 +102,8 @@ std::vector<PatternFinding> ExplainLeftOutBoards(const CalibrationData& all,
     board.image = found->second;
     PatternFinding finding;
     finding.labels = ReadLabels(board, used.target, state);
+    // A good board that went with a bad one of its image.
+    if (finding.labels.rms_as_labelled_px < fits_px) continue;
     finding.kind =
         finding.labels.IsMislabelled() ? PatternKind::kMislabelled : PatternKind::kBoardMisfit;
     finding.view = board.view;
