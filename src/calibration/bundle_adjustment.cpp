@@ -123,6 +123,15 @@ void CountInfluence(const CalibrationData& data, double robust_sigmas, BundleRes
 
 }  // namespace
 
+ArrayState StateFromSeed(const Session& session, const ArraySeed& seed) {
+  ArrayState state;
+  state.array.lenses = {seed.lens};
+  state.array.views = seed.views;
+  state.poses = seed.poses;
+  state.stage_axis_in_array = session.stage_axis_in_array;
+  return state;
+}
+
 double BundleResult::Sigma0() const {
   return std::sqrt(squared_influence / std::max(1, residual_count - parameter_count)) / mean_slope;
 }

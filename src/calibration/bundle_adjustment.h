@@ -16,6 +16,8 @@ struct ArrayState {
   double stage_scale_relative = 0;  // error common to all stated travels
 };
 
+ArrayState StateFromSeed(const Session& session, const ArraySeed& seed);
+
 struct BundleOptions {
   LensModel model;                // coefficients that are estimated; the others keep their value
   double stage_sigma_mm = 0.005;  // of one stage travel, per axis

@@ -23,15 +23,6 @@ const LensModel kSearchModel{{true, true, true, true, false}};
 // A parameter that stays more uncertain than this is not determined: the seed knows it better.
 constexpr double kUselessScale = 1e-3, kUselessTurn_rad = 0.01, kUselessOffset_mm = 0.1;
 
-ArrayState StateFromSeed(const Session& session, const ArraySeed& seed) {
-  ArrayState state;
-  state.array.lenses = {seed.lens};
-  state.array.views = seed.views;
-  state.poses = seed.poses;
-  state.stage_axis_in_array = session.stage_axis_in_array;
-  return state;
-}
-
 BundleOptions OptionsFor(const Session& session, const CalibrationOptions& options) {
   BundleOptions bundle;
   bundle.estimate_bow = options.board_warp;

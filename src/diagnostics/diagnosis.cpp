@@ -9,15 +9,6 @@
 namespace telestrain {
 namespace {
 
-ArrayState StartOf(const Session& session, const ArraySeed& seed) {
-  ArrayState start;
-  start.array.lenses = {seed.lens};
-  start.array.views = seed.views;
-  start.poses = seed.poses;
-  start.stage_axis_in_array = session.stage_axis_in_array;
-  return start;
-}
-
 // As the calibration expects it: without the floor that only the weights know.
 double ExpectedRmsOf(const CalibrationData& data, int degrees) {
   double variance_px2 = 0;
@@ -30,7 +21,7 @@ double ExpectedRmsOf(const CalibrationData& data, int degrees) {
 
 Result<IndependentOptimum> OptimumOf(const Session& session, const CalibrationRecord& record) {
   TELESTRAIN_ASSIGN_OR_RETURN(const ArraySeed seed, SeedArray(session, record.data));
-  return CheckAgainstMrcal(record.data, record.state, StartOf(session, seed));
+  return CheckAgainstMrcal(record.data, record.state, StateFromSeed(session, seed));
 }
 
 // Boards that were left out by wish have nothing to explain.
