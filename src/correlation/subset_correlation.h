@@ -11,8 +11,12 @@
 
 namespace telestrain {
 
+enum class Interpolation { kCubic, kQuintic };  // degree of the B-spline: 3 is faster, 5 truer
+
 struct CorrelationOptions {
-  int subset_px = 61;               // odd side of the square subset
+  int subset_px = 61;   // odd side of the square subset
+  int shape_order = 1;  // 0: shift, 1: affine, 2: quadratic shape function
+  Interpolation interpolation = Interpolation::kQuintic;
   double prefilter_sigma_px = 0.7;  // Gaussian blur of both images: removes interpolation bias
   int max_iterations = 30;
   double convergence_px = 1e-4;    // on the change of the subset's corners
@@ -21,11 +25,13 @@ struct CorrelationOptions {
   int threads = 0;                 // 0: one per core
 };
 
-// First-order shape function: the pixel at offset d from the subset's centre c is found at
-// c + d + displacement_px + gradient d.
+// Shape function: the pixel at offset d = (x, y) from the subset's centre c is found at
+// c + d + displacement_px + gradient d + curvature_per_px (x^2 / 2, x y, y^2 / 2).
 struct ShapeFunction {
   Eigen::Vector2d displacement_px = Eigen::Vector2d::Zero();
   Eigen::Matrix2d gradient = Eigen::Matrix2d::Zero();  // [du/dx du/dy; dv/dx dv/dy]
+  // [u_xx u_xy u_yy; v_xx v_xy v_yy], zero below order 2
+  Eigen::Matrix<double, 2, 3> curvature_per_px = Eigen::Matrix<double, 2, 3>::Zero();
 };
 
 enum class MatchStatus { kConverged, kLowContrast, kOutside, kNotConverged, kLowCorrelation };
