@@ -1,7 +1,10 @@
+#include <cmath>
+
 #include "base/check.h"
-#include "correlation/float_vector.h"
 #include "correlation/image_filters.h"
-#include "correlation/quintic_spline.h"
+#include "correlation/noise_shares.h"
+#include "correlation/saturation.h"
+#include "correlation/spline.h"
 #include "correlation/subset_correlation.h"
 #include "correlation/subset_solver.h"
 
@@ -11,15 +14,20 @@ using namespace correlation;
 
 namespace {
 
-// beta5 and its derivative at the nodes around a pixel.
-const std::vector<float> kValueAtNodes = {1.f / 120, 26.f / 120, 66.f / 120, 26.f / 120, 1.f / 120};
-const std::vector<float> kSlopeAtNodes = {-1.f / 24, -10.f / 24, 0.f, 10.f / 24, 1.f / 24};
+constexpr int kTail = 16;                  // lets a vector be loaded at the last pixel
+constexpr double kLeastShareInside = 0.5;  // of a subset's pixels, for a match
 
-// Lets a vector be loaded at the last pixel.
-std::vector<float> WithTail(GrayImage&& image) {
-  std::vector<float> values = std::move(image.pixels);
-  values.resize(values.size() + kLanes, 0.f);
-  return values;
+std::shared_ptr<const PixelBits> InsideOf(const PixelMask* mask, const GrayImage& image,
+                                          const PixelRegion& region) {
+  if (!mask) return nullptr;
+  TELESTRAIN_CHECK(mask->width == image.width && mask->height == image.height &&
+                       mask->inside.size() == image.pixels.size(),
+                   "the mask must have the size of the reference image");
+  const PixelBits outside = BitsWhere(region, [&](int x, int y) { return !mask->At(x, y); });
+  if (outside.empty()) return nullptr;
+  const PixelBits inside = BitsWhere(region, [&](int x, int y) { return mask->At(x, y); });
+  return std::make_shared<const PixelBits>(inside.empty() ? PixelBits(region.width, region.height)
+                                                          : inside);
 }
 
 }  // namespace
@@ -36,56 +44,88 @@ std::string ToText(MatchStatus status) {
       return "not converged";
     case MatchStatus::kLowCorrelation:
       return "low correlation";
+    case MatchStatus::kSaturated:
+      return "saturated";
+    case MatchStatus::kMasked:
+      return "masked";
   }
   return "unknown";
 }
 
 CorrelationReference::CorrelationReference(const GrayImage& image, const PixelRegion& region,
-                                           const CorrelationOptions& options)
+                                           const CorrelationOptions& options, const PixelMask* mask)
     : region_(region), options_(options) {
   TELESTRAIN_CHECK(options.subset_px >= 5 && options.subset_px % 2 == 1,
                    "the subset's side must be odd and at least 5 px");
-  const std::vector<float> kernel = GaussianKernel(options.prefilter_sigma_px);
-  const double along = NoiseVarianceAfter(kernel);
-  blurred_noise_variance_ = along * along;
-  GrayImage gray = Blur(Crop(image, region), kernel);
-  GrayImage spline = gray;
-  ToSplineCoefficients(spline);
-  GrayImage gradient_x = FilterColumns(FilterRows(spline, kSlopeAtNodes), kValueAtNodes);
-  GrayImage gradient_y = FilterColumns(FilterRows(spline, kValueAtNodes), kSlopeAtNodes);
-  noise_gradient_x_ = WithTail(Blur(gradient_x, kernel));
-  noise_gradient_y_ = WithTail(Blur(gradient_y, kernel));
-  gray_ = WithTail(std::move(gray));
-  gradient_x_ = WithTail(std::move(gradient_x));
-  gradient_y_ = WithTail(std::move(gradient_y));
+  TELESTRAIN_CHECK(options.shape_order >= 0 && options.shape_order <= 2,
+                   "the order of the shape function must be 0, 1 or 2");
+  const ImageView view = View(image, region);
+  const PixelRegion whole{0, 0, region.width, region.height};
+  const std::vector<float> blur = GaussianKernel(options.prefilter_sigma_px);
+  const std::vector<float> slope = SlopeKernel(options.interpolation, options.prefilter_sigma_px);
+  blurred_noise_variance_ = std::pow(NoiseVarianceAfter(blur), 2);
+  const auto filtered = [&](const std::vector<float>& along_x, const std::vector<float>& along_y) {
+    std::vector<float> out(static_cast<std::size_t>(region.width) * region.height + kTail);
+    FilterSeparable(view, along_x, along_y, whole, options.threads, out.data(), region.width);
+    return out;
+  };
+  gray_ = filtered(blur, blur);
+  gradient_x_ = filtered(slope, blur);
+  gradient_y_ = filtered(blur, slope);
+  inside_ = InsideOf(mask, image, region);
+  saturation_ = std::make_shared<const Saturation>(image, region);
+  const auto field = [&](const std::vector<float>& values) {
+    return ImageView{values.data(), region.width, region.width, region.height};
+  };
+  noise_shares_ =
+      std::make_shared<const NoiseShares>(field(gradient_x_), field(gradient_y_), blur,
+                                          inside_ ? *inside_ : PixelBits(), options.threads);
 }
 
 SubsetMatch CorrelationReference::Match(const Eigen::Vector2i& center_px,
-                                        const PreparedImage& image,
-                                        const ShapeFunction& start) const {
+                                        const PreparedImage& image, const ShapeFunction& start,
+                                        int threads) const {
+  TELESTRAIN_CHECK(image.interpolation_ == options_.interpolation,
+                   "the image must be prepared with the options of the reference");
   const int side = options_.subset_px, half = side / 2;
   const int left = center_px.x() - region_.x - half, top = center_px.y() - region_.y - half;
-  SubsetMatch outside;
-  outside.status = MatchStatus::kOutside;
-  outside.shape = start;
+  SubsetMatch failed;
+  failed.status = MatchStatus::kOutside;
+  failed.shape = start;
   if (left < kSplineMargin || top < kSplineMargin || left + side > region_.width - kSplineMargin ||
       top + side > region_.height - kSplineMargin)
-    return outside;
+    return failed;
+  const PixelRegion part{left, top, side, side};
+  const std::int64_t pixels = static_cast<std::int64_t>(side) * side;
+  const std::int64_t counted = inside_ ? inside_->Count(part) : pixels;
+  failed.status = MatchStatus::kMasked;
+  if (static_cast<double>(counted) < kLeastShareInside * static_cast<double>(pixels)) return failed;
 
   const std::size_t first = static_cast<std::size_t>(top) * region_.width + left;
+  const bool masked = counted < pixels;
   SubsetProblem problem;
-  problem.subset = {&gray_[first], &gradient_x_[first], &gradient_y_[first], region_.width, side};
-  problem.noise_subset = problem.subset;
-  problem.noise_subset.gradient_x = &noise_gradient_x_[first];
-  problem.noise_subset.gradient_y = &noise_gradient_y_[first];
+  problem.subset = {&gray_[first],
+                    &gradient_x_[first],
+                    &gradient_y_[first],
+                    region_.width,
+                    side,
+                    masked ? inside_->Row(top) : nullptr,
+                    masked ? inside_->words_per_row() : 0,
+                    left};
+  problem.noise_shares = noise_shares_->In(part);
   problem.reference_noise_variance = blurred_noise_variance_;
   problem.image_noise_variance = image.blurred_noise_variance_;
-  problem.spline = {image.coefficients_.data(), image.stride_};
+  problem.spline = {image.coefficients_.data(), image.stride_,
+                    image.interpolation_ == Interpolation::kCubic ? 3 : 5};
   const PixelRegion& other = image.region_;
   problem.center_px = (center_px - Eigen::Vector2i(other.x, other.y)).cast<double>();
   problem.size_px = {other.width, other.height};
+  problem.white = Saturation::Exceeds(saturation_->white, part);
+  problem.saturated = saturation_->In(part);
+  problem.image_saturation = image.saturation_.get();
   problem.options = &options_;
-  return SubsetSolver(problem).Solve(start);
+  problem.threads = threads;
+  return SolveSubset(problem, start);
 }
 
 }  // namespace telestrain

@@ -5,7 +5,9 @@
 #include <cmath>
 
 #include "base/check.h"
-#include "correlation/quintic_spline.h"
+#include "base/parallel.h"
+#include "correlation/kernels.h"
+#include "correlation/spline.h"
 
 namespace telestrain::correlation {
 namespace {
@@ -42,25 +44,8 @@ GrayImage EmptyLike(const GrayImage& image) {
   return {image.width, image.height, image.max_gray, std::vector<float>(image.pixels.size(), 0.f)};
 }
 
-}  // namespace
-
-GrayImage Crop(const GrayImage& image, const PixelRegion& region) {
-  TELESTRAIN_CHECK(region.x >= 0 && region.y >= 0 && region.width >= kSmallestSide_px &&
-                       region.height >= kSmallestSide_px &&
-                       region.x + region.width <= image.width &&
-                       region.y + region.height <= image.height,
-                   "the region must lie inside the image and measure at least 8 px");
-  GrayImage part{region.width, region.height, image.max_gray, {}};
-  part.pixels.reserve(static_cast<std::size_t>(region.width) * region.height);
-  for (int y = 0; y < region.height; ++y) {
-    const float* row = &image.pixels[static_cast<std::size_t>(region.y + y) * image.width];
-    part.pixels.insert(part.pixels.end(), row + region.x, row + region.x + region.width);
-  }
-  return part;
-}
-
-std::vector<float> GaussianKernel(double sigma_px) {
-  if (!(sigma_px > 0)) return {1.f};
+std::vector<double> Gaussian(double sigma_px) {
+  if (!(sigma_px > 0)) return {1.};
   const int reach = static_cast<int>(std::ceil(4 * sigma_px));
   std::vector<double> weights;
   double sum = 0;
@@ -68,11 +53,56 @@ std::vector<float> GaussianKernel(double sigma_px) {
     weights.push_back(std::exp(-0.5 * k * k / (sigma_px * sigma_px)));
     sum += weights.back();
   }
-  std::vector<float> kernel;
-  for (double weight : weights) kernel.push_back(static_cast<float>(weight / sum));
-  return kernel;
+  for (double& weight : weights) weight /= sum;
+  return weights;
 }
 
+std::vector<double> Convolve(const std::vector<double>& a, const std::vector<double>& b) {
+  std::vector<double> product(a.size() + b.size() - 1);
+  for (std::size_t i = 0; i < a.size(); ++i)
+    for (std::size_t k = 0; k < b.size(); ++k) product[i + k] += a[i] * b[k];
+  return product;
+}
+
+// Poles inside the unit circle of z^2 + 4 z + 1 and of z^4 + 26 z^3 + 66 z^2 + 26 z + 1.
+std::vector<double> Poles(Interpolation interpolation) {
+  if (interpolation == Interpolation::kCubic) return {-0.26794919243112270647};
+  return {-0.430575347099973791851434783493, -0.0430962882032646538075920};
+}
+
+// The inverse of the spline's samples: for every pole z the filter z^|k| (1 - z) / (1 + z), whose
+// weights sum to one.
+std::vector<double> InverseSpline(Interpolation interpolation) {
+  constexpr int kReach = 40;  // 0.43^40 is below a double's resolution
+  std::vector<double> inverse{1.};
+  for (double pole : Poles(interpolation)) {
+    std::vector<double> filter;
+    for (int k = -kReach; k <= kReach; ++k)
+      filter.push_back(std::pow(pole, std::abs(k)) * (1 - pole) / (1 + pole));
+    inverse = Convolve(inverse, filter);
+  }
+  return inverse;
+}
+
+std::vector<double> Trimmed(const std::vector<double>& kernel) {
+  constexpr double kNegligible = 1e-7;
+  double whole = 0, rest = 0;
+  for (double weight : kernel) whole += std::abs(weight);
+  std::ptrdiff_t cut = 0;
+  while (rest += 2 * std::abs(kernel[cut]), rest < kNegligible * whole) ++cut;
+  return {kernel.begin() + cut, kernel.end() - cut};
+}
+
+// What cutting and rounding took from the sum of the weights goes to the middle one.
+std::vector<float> ToFloat(const std::vector<double>& kernel, double sum) {
+  std::vector<float> weights(kernel.begin(), kernel.end());
+  double missing = sum;
+  for (float weight : weights) missing -= weight;
+  if (sum != 0) weights[weights.size() / 2] += static_cast<float>(missing);
+  return weights;
+}
+
+// out(x) = sum_k kernel[k] in(x + k - n) along the rows.
 GrayImage FilterRows(const GrayImage& image, const std::vector<float>& kernel) {
   const int reach = static_cast<int>(kernel.size()) / 2;
   GrayImage out = EmptyLike(image);
@@ -87,23 +117,73 @@ GrayImage FilterRows(const GrayImage& image, const std::vector<float>& kernel) {
   return out;
 }
 
-GrayImage FilterColumns(const GrayImage& image, const std::vector<float>& kernel) {
-  const int reach = static_cast<int>(kernel.size()) / 2;
-  GrayImage out = EmptyLike(image);
-  for (int y = 0; y < image.height; ++y) {
-    float* row = &out.At(0, y);
-    for (int k = -reach; k <= reach; ++k) {
-      const float* from =
-          &image.pixels[static_cast<std::size_t>(MirroredIndex(y + k, image.height)) * image.width];
-      for (int x = 0; x < image.width; ++x) row[x] += kernel[k + reach] * from[x];
-    }
+}  // namespace
+
+void CheckRegion(const GrayImage& image, const PixelRegion& region) {
+  TELESTRAIN_CHECK(region.x >= 0 && region.y >= 0 && region.width >= kSmallestSide_px &&
+                       region.height >= kSmallestSide_px &&
+                       region.x + region.width <= image.width &&
+                       region.y + region.height <= image.height,
+                   "the region must lie inside the image and measure at least 8 px");
+}
+
+GrayImage Crop(const GrayImage& image, const PixelRegion& region) {
+  CheckRegion(image, region);
+  GrayImage part{region.width, region.height, image.max_gray, {}};
+  part.pixels.reserve(static_cast<std::size_t>(region.width) * region.height);
+  for (int y = 0; y < region.height; ++y) {
+    const float* row = &image.pixels[static_cast<std::size_t>(region.y + y) * image.width];
+    part.pixels.insert(part.pixels.end(), row + region.x, row + region.x + region.width);
   }
-  return out;
+  return part;
+}
+
+std::vector<float> GaussianKernel(double sigma_px) { return ToFloat(Gaussian(sigma_px), 1); }
+
+std::vector<float> CoefficientKernel(Interpolation interpolation, double sigma_px) {
+  std::vector<double> kernel = Convolve(InverseSpline(interpolation), Gaussian(sigma_px));
+  return ToFloat(Trimmed(kernel), 1);
+}
+
+std::vector<float> SlopeKernel(Interpolation interpolation, double sigma_px) {
+  // The spline's slope at the nodes around a pixel, in the order of a correlation.
+  const std::vector<double> slopes =
+      interpolation == Interpolation::kCubic
+          ? std::vector<double>{-0.5, 0, 0.5}
+          : std::vector<double>{-1. / 24, -10. / 24, 0, 10. / 24, 1. / 24};
+  const std::vector<double> smooth = Convolve(InverseSpline(interpolation), Gaussian(sigma_px));
+  return ToFloat(Trimmed(Convolve(smooth, slopes)), 0);
+}
+
+ImageView View(const GrayImage& image, const PixelRegion& region) {
+  CheckRegion(image, region);
+  return {image.pixels.data() + static_cast<std::ptrdiff_t>(region.y) * image.width + region.x,
+          image.width, region.width, region.height};
+}
+
+void FilterSeparable(const ImageView& view, const std::vector<float>& kernel_x,
+                     const std::vector<float>& kernel_y, const PixelRegion& part, int threads,
+                     float* out, std::ptrdiff_t out_stride) {
+  const int reach_x = static_cast<int>(kernel_x.size()) / 2;
+  const int reach_y = static_cast<int>(kernel_y.size()) / 2;
+  TELESTRAIN_CHECK(std::max(reach_x, reach_y) <= kLargestReach,
+                   "a filter must not be longer than 81 px: the prefilter's sigma is at most 5 px");
+  const int strips = (part.width + kStripColumns - 1) / kStripColumns;
+  ParallelFor(strips, threads, [&](int strip) {
+    const int first = strip * kStripColumns;
+    ActiveKernels().filter({view.pixels, view.stride, view.width, view.height, kernel_x.data(),
+                            kernel_y.data(), reach_x, reach_y, part.x + first,
+                            std::min(kStripColumns, part.width - first), part.y,
+                            part.y + part.height, out + first, out_stride});
+  });
 }
 
 GrayImage Blur(const GrayImage& image, const std::vector<float>& kernel) {
   if (kernel.size() == 1) return image;
-  return FilterColumns(FilterRows(image, kernel), kernel);
+  GrayImage out = EmptyLike(image);
+  const PixelRegion whole{0, 0, image.width, image.height};
+  FilterSeparable(View(image, whole), kernel, kernel, whole, 1, out.pixels.data(), image.width);
+  return out;
 }
 
 double NoiseVarianceAfter(const std::vector<float>& weights) {

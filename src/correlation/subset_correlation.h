@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/gray_image.h"
+#include "correlation/pixel_mask.h"
 #include "session/session.h"
 
 namespace telestrain {
@@ -19,7 +20,9 @@ struct CorrelationOptions {
   Interpolation interpolation = Interpolation::kQuintic;
   double prefilter_sigma_px = 0.7;  // Gaussian blur of both images: removes interpolation bias
   int max_iterations = 30;
-  double convergence_px = 1e-4;    // on the change of the subset's corners
+  // On the step of one iteration: the root of the summed squares of its parameters, those of
+  // gradients and curvatures as they move the end of a half side.
+  double convergence_px = 1e-4;
   double min_zncc = 0.5;           // below it a match is reported as decorrelated
   double min_contrast_gray = 2.0;  // rms grey level of a subset that can be correlated
   int threads = 0;                 // 0: one per core
@@ -34,7 +37,15 @@ struct ShapeFunction {
   Eigen::Matrix<double, 2, 3> curvature_per_px = Eigen::Matrix<double, 2, 3>::Zero();
 };
 
-enum class MatchStatus { kConverged, kLowContrast, kOutside, kNotConverged, kLowCorrelation };
+enum class MatchStatus {
+  kConverged,
+  kLowContrast,
+  kOutside,
+  kNotConverged,
+  kLowCorrelation,
+  kSaturated,  // more than half of the pixels at one end of the grey scale, in either image
+  kMasked      // less than half of the subset's pixels are inside the mask
+};
 std::string ToText(MatchStatus status);
 
 struct SubsetMatch {
@@ -48,13 +59,23 @@ struct SubsetMatch {
   // correlates between pixels.
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
   int iterations = 0;
+  // Sum of the squared grey gradients along x and y (gray^2) over the subset of the reference.
+  Eigen::Vector2d sssig = Eigen::Vector2d::Zero();
   bool ok() const { return status == MatchStatus::kConverged; }
 };
 
-// A region of an image, blurred and turned into quintic B-spline coefficients. Copyable; holds one
-// float a pixel. Pixel coordinates are those of the whole image. `gradient` is how much the image
-// is stretched against the reference on the whole (another view of the same surface): the blur is
-// stretched with it, so that both images lose the same detail of the surface.
+namespace correlation {
+class NoiseShares;
+class PixelBits;
+struct Saturation;
+}  // namespace correlation
+
+// A region of an image, blurred and turned into B-spline coefficients. Copyable; holds one float
+// and less than a bit of a pixel. Pixel coordinates are those of the whole image. `gradient` is how
+// much the image is stretched against the reference on the whole (another view of the same
+// surface): the blur is stretched with it, so that both images lose the same detail of the surface.
+// The coefficients of a pixel depend on the 23 pixels around it: a part of an image prepared with
+// that margin has the same bits as the whole.
 class PreparedImage {
  public:
   PreparedImage(const GrayImage& image, const PixelRegion& region,
@@ -63,35 +84,44 @@ class PreparedImage {
   const PixelRegion& region() const { return region_; }
   // Interpolated (blurred) grey level; the position must be at least 3 px inside the region.
   float Sample(double x_px, double y_px) const;
+  // Bytes held beside the image.
+  std::size_t bytes() const;
 
  private:
   friend class CorrelationReference;
   PixelRegion region_;
+  Interpolation interpolation_;
   int stride_ = 0;
   std::vector<float> coefficients_;
   double blurred_noise_variance_ = 1;  // of the blurred image, when that of the image is one
+  std::shared_ptr<const correlation::Saturation> saturation_;
 };
 
 // The reference state: grey levels and gradients of the blurred image at whole pixels.
 class CorrelationReference {
  public:
+  // Pixels outside the mask (of the size of the image, else a broken contract) never count in any
+  // sum over a subset. The blur and the gradients of pixels at its edge still see their neighbours.
   CorrelationReference(const GrayImage& image, const PixelRegion& region,
-                       const CorrelationOptions& options);
+                       const CorrelationOptions& options, const PixelMask* mask = nullptr);
   const PixelRegion& region() const { return region_; }
   const CorrelationOptions& options() const { return options_; }
 
   // Inverse-compositional Gauss-Newton on the zero-mean normalised sum of squared differences from
-  // `start` (MODEL: correlation.md of the design, Pan et al. 2013). Thread-safe.
+  // `start` (MODEL: correlation.md of the design, Pan et al. 2013). Thread-safe. The rows of a
+  // large subset are shared by `threads` threads (0: one per core), which changes no bit of the
+  // result.
   SubsetMatch Match(const Eigen::Vector2i& center_px, const PreparedImage& image,
-                    const ShapeFunction& start) const;
+                    const ShapeFunction& start, int threads = 1) const;
 
  private:
   PixelRegion region_;
   CorrelationOptions options_;
   std::vector<float> gray_, gradient_x_, gradient_y_;
-  // The gradients blurred once more: what the prefilter lets through of the images' noise.
-  std::vector<float> noise_gradient_x_, noise_gradient_y_;
   double blurred_noise_variance_ = 1;
+  std::shared_ptr<const correlation::Saturation> saturation_;
+  std::shared_ptr<const correlation::NoiseShares> noise_shares_;
+  std::shared_ptr<const correlation::PixelBits> inside_;  // null: all pixels count
 };
 
 // Whole-pixel shift of the content of `region` from `reference` to `image` by an exhaustive search

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "correlation/image_filters.h"
-#include "correlation/quintic_spline.h"
+#include "correlation/spline.h"
 #include "tests/unit/correlation/speckle.h"
 
 namespace telestrain {
@@ -55,22 +55,53 @@ TEST(PreparedImage, BlursByTheGivenSigma) {
   EXPECT_NEAR(prepared.Sample(20, 20), 100 * 4.0 / (4.0 + 0.49), 0.05);
 }
 
-TEST(QuinticSpline, WeightsSumToOneAndKeepTheirMeanPlace) {
+template <int kDegree>
+void ExpectWeightsOfTheMeanPlace() {
+  const auto fma = [](float a, float b, float c) { return a * b + c; };
+  const auto spread = [](float value) { return value; };
+  float weight[kDegree + 1];
   for (float fraction : {0.f, 0.1f, 0.5f, 0.9f, 0.999f}) {
-    float weight[6];
-    correlation::QuinticWeights(fraction, weight);
+    correlation::SplineWeights<kDegree>(fraction, fma, spread, weight);
     float sum = 0, place = 0;
-    for (int k = 0; k < 6; ++k) {
+    for (int k = 0; k <= kDegree; ++k) {
       sum += weight[k];
-      place += static_cast<float>(k - 2) * weight[k];
+      place += static_cast<float>(k - kDegree / 2) * weight[k];
     }
     EXPECT_NEAR(sum, 1, 1e-6);
     EXPECT_NEAR(place, fraction, 1e-6);
   }
-  float weight[6];
-  correlation::QuinticWeights(0.f, weight);
-  for (int k = 0; k < 6; ++k)
-    EXPECT_NEAR(weight[k], (std::array{1.f, 26.f, 66.f, 26.f, 1.f, 0.f}[k]) / 120, 1e-7);
+  correlation::SplineWeights<kDegree>(0.f, fma, spread, weight);
+  const std::vector<float> at_nodes =
+      kDegree == 3
+          ? std::vector<float>{1.f / 6, 4.f / 6, 1.f / 6, 0}
+          : std::vector<float>{1.f / 120, 26.f / 120, 66.f / 120, 26.f / 120, 1.f / 120, 0};
+  for (int k = 0; k <= kDegree; ++k) EXPECT_NEAR(weight[k], at_nodes[k], 1e-7);
+}
+
+TEST(Spline, WeightsSumToOneAndKeepTheirMeanPlace) {
+  ExpectWeightsOfTheMeanPlace<3>();
+  ExpectWeightsOfTheMeanPlace<5>();
+}
+
+// Filters of finite length: a part that is prepared with 23 px more on every side is the whole.
+TEST(PreparedImage, APartHasTheBitsOfTheWhole) {
+  constexpr int kWidth = 300, kHeight = 120, kMargin = 23;
+  const GrayImage image = Speckle(5, kWidth, kHeight).Render(kWidth, kHeight);
+  for (const Interpolation interpolation : {Interpolation::kCubic, Interpolation::kQuintic}) {
+    const CorrelationOptions options{.interpolation = interpolation};
+    const PreparedImage whole(image, {0, 0, kWidth, kHeight}, options);
+    const PreparedImage part(image, {107, 11, 90, 80}, options);
+    for (int y = 11 + kMargin; y < 11 + 80 - kMargin; ++y)
+      for (int x = 107 + kMargin; x < 107 + 90 - kMargin; ++x)
+        ASSERT_EQ(whole.Sample(x + 0.25, y + 0.75), part.Sample(x + 0.25, y + 0.75));
+  }
+}
+
+TEST(PreparedImage, HoldsLittleMoreThanAFloatAPixel) {
+  constexpr int kWidth = 1000, kHeight = 900;
+  const GrayImage image{kWidth, kHeight, 255, std::vector<float>(kWidth * kHeight, 255.f)};
+  const PreparedImage prepared(image, {0, 0, kWidth, kHeight}, {});
+  EXPECT_LT(static_cast<double>(prepared.bytes()) / (kWidth * kHeight), 4.8);
 }
 
 TEST(ImageFilters, MirrorAboutTheOutermostPixels) {

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "base/gray_image.h"
+#include "correlation/pixel_bits.h"
+
+namespace telestrain::correlation {
+
+// Above this share of a subset's pixels at one end of the grey scale a match is reported as
+// saturated: half of the pixels then have no gradient and no noise, so that neither the
+// displacement nor its standard deviation says what it seems to. Each end counts by itself, since a
+// good pattern of black and white may touch both.
+inline constexpr double kMostSaturatedShare = 0.5;
+
+// Pixels of a region at the ends of the grey scale.
+struct Saturation {
+  PixelBits black, white;
+
+  Saturation() = default;
+  Saturation(const GrayImage& image, const PixelRegion& region)
+      : black(BitsWhere(region, [&](int x, int y) { return image.At(x, y) <= 0; })),
+        white(BitsWhere(region, [&](int x, int y) { return image.At(x, y) >= image.max_gray; })) {}
+
+  static bool Exceeds(const PixelBits& bits, const PixelRegion& part) {
+    return static_cast<double>(bits.Count(part)) >
+           kMostSaturatedShare * part.width * static_cast<double>(part.height);
+  }
+  bool In(const PixelRegion& part) const { return Exceeds(black, part) || Exceeds(white, part); }
+};
+
+}  // namespace telestrain::correlation
