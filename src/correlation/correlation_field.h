@@ -1,8 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "correlation/pixel_mask.h"
@@ -10,14 +10,27 @@
 
 namespace telestrain {
 
-// How a whole image is correlated.
+// How a whole image is correlated. Positions are pixels of the reference image.
 struct FieldOptions {
   CorrelationOptions correlation;
   int step_px = 0;  // between grid points; 0: a quarter of the subset
-  // Where the grid lies on the reference; nothing: the whole image.
+  // Where the grid points lie; nothing: the whole image. A subset may reach beyond it.
   std::optional<PixelRegion> region;
   std::optional<PixelMask> mask;  // of the size of the reference image; pixels outside never count
   int strain_window_points = 5;   // odd side of the virtual strain gauge, in grid points
+  // Converged points that a strain needs in its window, as a share of the window. With less than
+  // half of it the plane hangs on one side of the point.
+  double min_strain_share = 0.5;
+  // Searched where nothing is known, as a share of the image's width and height.
+  double max_shift_share = 0.25;
+  double max_rotation_deg = 9;  // of the blocks that are searched
+  // FieldTracker replaces the reference when the median correlation of the points that can be
+  // measured, a failed one counting zero, falls below this. At 0.8 a third of the image's variance
+  // is no longer the reference's pattern and adds to the noise.
+  double update_below_zncc = 0.8;
+  // Pixels of the reference that are held ready for the correlation at a time; a larger reference
+  // is worked through in bands of rows, with the same result. 24 Mpx take about 0.5 GB.
+  std::size_t max_band_pixels = 24'000'000;
 };
 
 // One grid point. Displacements run from the first reference to the image in its pixels.
@@ -39,17 +52,15 @@ struct CorrelationField {
   int reference_updates = 0;  // times the reference was replaced on the way to this image
 };
 
-// What a speckle pattern lets one expect, from one image and its region.
-struct PatternAssessment {
-  double speckle_px = 0;            // full width at half maximum of the autocorrelation
-  double contrast_gray = 0;         // rms
-  double noise_gray = 0;            // estimated from the image itself, before any blur
-  double saturated_share = 0;       // of the pixels, at either end of the scale
-  double gradient_gray_per_px = 0;  // rms of one component; SSSIG = subset area x its square
-  int recommended_subset_px = 0, recommended_step_px = 0;
-  double expected_sigma_px = 0;           // of u with the recommended subset
-  double expected_sigma_microstrain = 0;  // of a strain over the recommended window
-  std::vector<std::string> advice;        // plain sentences; empty when nothing is to be improved
-};
+// The grid, row by row, every row as long: all centres inside the region whose whole subset, with
+// the border that the interpolation needs, lies inside the image. Empty when there is none.
+std::vector<Eigen::Vector2i> GridCenters(int width_px, int height_px, const FieldOptions& options);
+
+// The field of one image about which nothing is known: whole-pixel seeds by a full search, from
+// there to the neighbours, the strain in the end. options.correlation and options.mask must be
+// those that the reference was made with; the grid lies in the reference's region. The image may
+// be of another size. The same bits for any number of threads.
+CorrelationField Correlate(const CorrelationReference& reference, const GrayImage& image,
+                           const FieldOptions& options);
 
 }  // namespace telestrain
