@@ -18,9 +18,9 @@ struct FieldOptions {
   std::optional<PixelRegion> region;
   std::optional<PixelMask> mask;  // of the size of the reference image; pixels outside never count
   int strain_window_points = 5;   // odd side of the virtual strain gauge, in grid points
-  // Converged points that a strain needs in its window, as a share of the window. With less than
-  // half of it the plane hangs on one side of the point.
-  double min_strain_share = 0.5;
+  // Converged points that a strain needs in its window, as a share of the window. A corner of the
+  // grid has a little more than a quarter; its sigma tells what that costs.
+  double min_strain_share = 0.25;
   // Searched where nothing is known, as a share of the image's width and height.
   double max_shift_share = 0.25;
   double max_rotation_deg = 9;  // of the blocks that are searched

@@ -82,6 +82,11 @@ CorrelationReference::CorrelationReference(const GrayImage& image, const PixelRe
                                           inside_ ? *inside_ : PixelBits(), options.threads);
 }
 
+GrayImage CorrelationReference::BlurredImage() const {
+  const auto pixels = static_cast<std::ptrdiff_t>(region_.width) * region_.height;
+  return {region_.width, region_.height, 255, {gray_.begin(), gray_.begin() + pixels}};
+}
+
 SubsetMatch CorrelationReference::Match(const Eigen::Vector2i& center_px,
                                         const PreparedImage& image, const ShapeFunction& start,
                                         int threads) const {

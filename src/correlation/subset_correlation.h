@@ -106,6 +106,8 @@ class CorrelationReference {
                        const CorrelationOptions& options, const PixelMask* mask = nullptr);
   const PixelRegion& region() const { return region_; }
   const CorrelationOptions& options() const { return options_; }
+  // The region's grey levels after the blur.
+  GrayImage BlurredImage() const;
 
   // Inverse-compositional Gauss-Newton on the zero-mean normalised sum of squared differences from
   // `start` (MODEL: correlation.md of the design, Pan et al. 2013). Thread-safe. The rows of a

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "correlation/correlation_field.h"
+
+namespace telestrain::correlation {
+
+// The reference of a correlation, whole or in bands of rows that are prepared one after the other,
+// so that a large image is never held prepared as a whole. A band reaches beyond its points by the
+// subset and the filters, so that a point does not notice which band it was in.
+class ReferenceBands {
+ public:
+  explicit ReferenceBands(const CorrelationReference& whole);
+  // Keeps a pointer to the image.
+  ReferenceBands(const GrayImage& image, const FieldOptions& options);
+
+  const CorrelationOptions& options() const { return options_; }
+
+  // work(reference, i) for every i of `points`, where the reference holds the subset around
+  // centers_px[i]; in parallel, in no particular order.
+  using Work = std::function<void(const CorrelationReference&, int)>;
+  void ForEach(const std::vector<Eigen::Vector2i>& centers_px, const std::vector<int>& points,
+               const Work& work) const;
+
+ private:
+  CorrelationReference Prepare(int first_row, int last_row) const;
+
+  CorrelationOptions options_;
+  const GrayImage* image_ = nullptr;
+  int band_rows_ = 0;
+  std::shared_ptr<const CorrelationReference> whole_;  // when one band is enough
+};
+
+}  // namespace telestrain::correlation
