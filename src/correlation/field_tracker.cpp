@@ -64,7 +64,7 @@ class FieldTracker::State {
         masked_(MaskedPoints(first_centers_, options)),
         columns_(GridColumns(first_centers_)),
         reference_(std::move(reference)),
-        bands_(std::in_place, reference_, options_) {
+        bands_(std::in_place, reference_, options_, options_.mask ? &*options_.mask : nullptr) {
     for (const auto& center : first_centers_) points_.push_back(FirstLink(center));
   }
 
@@ -103,7 +103,7 @@ class FieldTracker::State {
       totals.push_back(matches[i].ok() ? std::optional(Compose(points_[i], matches[i]).shape)
                                        : std::nullopt);
     points_ = NextLinks(points_, previous_matches_, columns_, options_.correlation.subset_px);
-    SwapReference();
+    SwapReference(false);
     Starts starts;
     for (std::size_t i = 0; i < points_.size(); ++i)
       starts.push_back(totals[i] && points_[i].known
@@ -116,13 +116,14 @@ class FieldTracker::State {
       return;
     }
     points_ = points;
-    SwapReference();
+    SwapReference(updates_ == 0);
   }
 
-  void SwapReference() {
+  // The mask says which pixels of the first reference count, of later ones it says nothing.
+  void SwapReference(bool to_first) {
     std::swap(reference_, previous_);
     for (std::size_t i = 0; i < points_.size(); ++i) centers_[i] = points_[i].center_px;
-    bands_.emplace(reference_, options_);
+    bands_.emplace(reference_, options_, to_first && options_.mask ? &*options_.mask : nullptr);
   }
 
   CorrelationField ToField(std::vector<SubsetMatch> matches) const {

@@ -79,7 +79,8 @@ void PointPropagation::MatchFrom(const std::vector<std::optional<ShapeFunction>>
   for (int i = 0; i < static_cast<int>(centers_.size()); ++i)
     if (!excluded_[i] && starts[starts.size() == 1 ? 0 : i]) points.push_back(i);
   reference_.ForEach(centers_, points, [&](const CorrelationReference& reference, int i) {
-    matches_[i] = reference.Match(centers_[i], image_, *starts[starts.size() == 1 ? 0 : i]);
+    matches_[i] = reference.Match(centers_[i], image_, *starts[starts.size() == 1 ? 0 : i],
+                                  reference_.RowThreads(points.size()));
   });
   for (int i : points)
     if (matches_[i].ok()) Remember(i);
@@ -92,7 +93,8 @@ void PointPropagation::AddSeeds(const std::vector<KnownMatch>& seeds) {
   std::iota(all.begin(), all.end(), 0);
   std::vector<SubsetMatch> found(seeds.size());
   reference_.ForEach(places, all, [&](const CorrelationReference& reference, int i) {
-    found[i] = reference.Match(places[i], image_, seeds[i].shape);
+    found[i] =
+        reference.Match(places[i], image_, seeds[i].shape, reference_.RowThreads(seeds.size()));
   });
   for (std::size_t i = 0; i < seeds.size(); ++i)
     if (found[i].ok()) known_.push_back({places[i], found[i].shape, found[i].zncc});
@@ -237,7 +239,8 @@ void PointPropagation::RecheckOutliers(int columns) {
     }
     std::vector<char> changed(centers_.size(), 0);
     reference_.ForEach(centers_, doubtful, [&](const CorrelationReference& reference, int i) {
-      const SubsetMatch found = reference.Match(centers_[i], image_, *starts[i]);
+      const SubsetMatch found =
+          reference.Match(centers_[i], image_, *starts[i], reference_.RowThreads(doubtful.size()));
       if (!found.ok() || !(found.zncc > matches_[i].zncc)) return;
       matches_[i] = found;
       changed[i] = 1;

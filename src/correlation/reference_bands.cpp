@@ -16,8 +16,9 @@ constexpr int kSmallestBand_px = 64;
 ReferenceBands::ReferenceBands(const CorrelationReference& whole)
     : options_(whole.options()), whole_(&whole, [](const CorrelationReference*) {}) {}
 
-ReferenceBands::ReferenceBands(const GrayImage& image, const FieldOptions& options)
-    : options_(options.correlation), image_(&image) {
+ReferenceBands::ReferenceBands(const GrayImage& image, const FieldOptions& options,
+                               const PixelMask* mask)
+    : options_(options.correlation), image_(&image), mask_(mask) {
   const std::size_t rows = options.max_band_pixels / static_cast<std::size_t>(image.width);
   band_rows_ = static_cast<int>(
       std::clamp<std::size_t>(rows, kSmallestBand_px, static_cast<std::size_t>(1) << 30));
@@ -29,7 +30,12 @@ CorrelationReference ReferenceBands::Prepare(int first_row, int last_row) const 
   const int reach = options_.subset_px / 2 + kFilterReach_px;
   const int top = std::max(0, first_row - reach);
   const int bottom = std::min(image_->height, last_row + reach);
-  return {*image_, {0, top, image_->width, bottom - top}, options_};
+  return {*image_, {0, top, image_->width, bottom - top}, options_, mask_};
+}
+
+// A task's worth of points is matched one after the other; only then the rows may be shared.
+int ReferenceBands::RowThreads(std::size_t points) const {
+  return points <= kPointsPerTask ? options_.threads : 1;
 }
 
 void ReferenceBands::ForEach(const std::vector<Eigen::Vector2i>& centers_px,

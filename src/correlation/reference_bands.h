@@ -15,10 +15,12 @@ namespace telestrain::correlation {
 class ReferenceBands {
  public:
   explicit ReferenceBands(const CorrelationReference& whole);
-  // Keeps a pointer to the image.
-  ReferenceBands(const GrayImage& image, const FieldOptions& options);
+  // Keeps pointers to the image and to the mask, if there is one: its pixels do not count.
+  ReferenceBands(const GrayImage& image, const FieldOptions& options, const PixelMask* mask);
 
   const CorrelationOptions& options() const { return options_; }
+  // By how many threads the rows of one subset are shared when `points` of them are matched.
+  int RowThreads(std::size_t points) const;
 
   // work(reference, i) for every i of `points`, where the reference holds the subset around
   // centers_px[i]; in parallel, in no particular order.
@@ -31,6 +33,7 @@ class ReferenceBands {
 
   CorrelationOptions options_;
   const GrayImage* image_ = nullptr;
+  const PixelMask* mask_ = nullptr;
   int band_rows_ = 0;
   std::shared_ptr<const CorrelationReference> whole_;  // when one band is enough
 };
