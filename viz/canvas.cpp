@@ -2,9 +2,12 @@
 
 #include <vtkActor2D.h>
 #include <vtkCamera.h>
+#include <vtkImageData.h>
+#include <vtkImageMapper.h>
 #include <vtkMapper.h>
 #include <vtkMatrix4x4.h>
 #include <vtkNew.h>
+#include <vtkProperty2D.h>
 #include <vtkRenderer.h>
 #include <vtkTextActor.h>
 #include <vtkTextProperty.h>
@@ -16,6 +19,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "viz/image_data.h"
 #include "viz/label_layout.h"
 #include "viz/offscreen_window.h"
 
@@ -118,6 +122,20 @@ vtkRenderer* Canvas::AddPanel(const std::string& name, const PixelBox& wanted,
   window_->AddRenderer(renderer);
   panels_.push_back({{name, DisplayFromArray(renderer->GetActiveCamera(), box)}, box});
   return renderer;
+}
+
+void Canvas::AddImage(const RgbImage& image, const Eigen::Vector2d& lower_left) {
+  vtkNew<vtkImageData> data;
+  FillImageData(image, data);
+  vtkNew<vtkImageMapper> mapper;
+  mapper->SetInputData(data);
+  mapper->SetColorWindow(255);  // with the level below: bytes as they are
+  mapper->SetColorLevel(127.5);
+  vtkNew<vtkActor2D> actor;
+  actor->SetMapper(mapper);
+  actor->SetPosition(std::round(lower_left.x()), std::round(lower_left.y()));
+  actor->GetProperty()->SetDisplayLocationToBackground();
+  flat_->AddActor2D(actor);
 }
 
 const Canvas::PanelState& Canvas::Find(const std::string& panel) const {

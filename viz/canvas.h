@@ -50,6 +50,8 @@ class Canvas {
   Eigen::Vector2d DisplayOf(const std::string& panel,
                             const Eigen::Vector3d& point_in_array_mm) const;
 
+  // Pixels as they are, `lower_left` rounded, below shapes and texts.
+  void AddImage(const RgbImage& image, const Eigen::Vector2d& lower_left);
   Overlay& Shapes() { return *overlay_; }
   Eigen::Vector2d TextSize(const std::string& text, const TextStyle& style) const;
   // `at`: lower left corner of the text's box.

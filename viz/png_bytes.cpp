@@ -6,8 +6,8 @@
 #include <vtkUnsignedCharArray.h>
 
 #include <cmath>
-#include <cstring>
 
+#include "viz/image_data.h"
 #include "viz/vtk_messages.h"
 
 namespace telestrain::viz {
@@ -34,15 +34,6 @@ std::string PhysChunk(int dots_per_inch) {
   const auto px_per_m = static_cast<std::uint32_t>(std::lround(dots_per_inch / 0.0254));
   const std::string body = "pHYs" + BigEndian(px_per_m) + BigEndian(px_per_m) + '\x01';
   return BigEndian(static_cast<std::uint32_t>(body.size() - 4)) + body + BigEndian(Crc(body));
-}
-
-void FillImageData(const RgbImage& image, vtkImageData* data) {
-  data->SetDimensions(image.width_px, image.height_px, 1);
-  data->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
-  const std::size_t row_bytes = 3 * static_cast<std::size_t>(image.width_px);
-  for (int y = 0; y < image.height_px; ++y)  // VTK's images start with the bottom row
-    std::memcpy(data->GetScalarPointer(0, image.height_px - 1 - y, 0),
-                image.rgb.data() + static_cast<std::size_t>(y) * row_bytes, row_bytes);
 }
 
 }  // namespace
