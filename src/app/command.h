@@ -27,6 +27,7 @@ class Command {
 
 std::unique_ptr<Command> MakeSimulateCommand();
 std::unique_ptr<Command> MakeDesignCommand();
+std::unique_ptr<Command> MakeCorrelateCommand();
 std::unique_ptr<Command> MakeDetectCommand();
 std::unique_ptr<Command> MakeCalibrateCommand();
 std::unique_ptr<Command> MakeDiagnoseCommand();

@@ -63,6 +63,7 @@ std::vector<std::unique_ptr<Command>> AllCommands() {
   commands.push_back(MakeSimulateCommand());
   commands.push_back(MakeStudyCommand());
   commands.push_back(MakeDesignCommand());
+  commands.push_back(MakeCorrelateCommand());
   return commands;
 }
 

@@ -80,7 +80,11 @@ Status CheckImageBytes(const std::string& name, std::string_view bytes, int widt
 
 Result<GrayImage> ReadGrayImage(const std::filesystem::path& path, int width_px, int height_px) {
   TELESTRAIN_ASSIGN_OR_RETURN(const std::string bytes, ReadFile(path));
-  const std::string name = path.string();
+  return DecodeGrayImage(path.string(), bytes, width_px, height_px);
+}
+
+Result<GrayImage> DecodeGrayImage(const std::string& name, const std::string& bytes, int width_px,
+                                  int height_px) {
   TELESTRAIN_RETURN_IF_ERROR(CheckImageBytes(name, bytes, width_px, height_px));
   const cv::Mat decoded = Decode(bytes);
   if (decoded.empty()) return Undecodable(name);

@@ -5,8 +5,9 @@
 namespace telestrain::testing_support {
 namespace {
 
-const std::vector<std::string> kVerbs = {"run",    "detect", "calibrate", "verify", "measure",
-                                         "render", "report", "simulate",  "design", "study"};
+const std::vector<std::string> kVerbs = {"run",     "detect", "calibrate", "verify",
+                                         "measure", "render", "report",    "simulate",
+                                         "design",  "study",  "correlate"};
 
 bool Holds(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
