@@ -108,8 +108,10 @@ void FieldMarks::AddSquare(const Eigen::Vector2d& center, double side_px) const 
 }
 
 void FieldMarks::AddSubset() const {
-  if (scene_.samples.empty() || scene_.subset_px < 1) return;
-  AddSquare(CanvasPlace(scene_.samples.front().at_px), PicturePx(scene_.subset_px));
+  const auto first = std::find_if(scene_.samples.begin(), scene_.samples.end(),
+                                  [](const FieldSample& sample) { return sample.is_point; });
+  if (first == scene_.samples.end()) return;
+  AddSquare(CanvasPlace(first->at_px), PicturePx(scene_.subset_px));
 }
 
 bool FieldMarks::AddGridDots() const {
