@@ -71,10 +71,27 @@ struct RulerSpec {
   double sigma_length_um = 0;
 };
 
+// A strain gauge glued to the pipe along its axis.
+struct PipeGauge {
+  std::string column;    // of pipe.csv
+  double axial_mm = 0;   // of its middle, from the array's origin towards the array's x
+  double angle_rad = 0;  // about the pipe's axis: 0 faces the instrument, pi/2 the array's y
+  double length_mm = 0;  // of its grid; 0: a point
+  double sigma_microstrain = 0;  // standard uncertainty of its reading
+  double sigma_angle_rad = 0;    // of the angle at which it is glued
+  // It reads the free thermal expansion too; else it is compensated for the pipe's material.
+  bool reads_thermal_strain = false;
+  bool operator==(const PipeGauge&) const = default;
+};
+
 struct PipeSpec {
   double outer_diameter_mm = 0;
   double poisson_ratio = 0;
   std::string material;
+  double thermal_expansion_per_k = 0;        // 0: not known, nothing is compensated
+  double sigma_thermal_expansion_per_k = 0;  // standard uncertainties
+  double sigma_temperature_k = 0;            // of one reading of temperature_c
+  std::vector<PipeGauge> gauges = {};        // those whose place is known
 };
 
 enum class DecisionRule { kGuarded, kSimple };
@@ -100,6 +117,7 @@ struct PipeState {
   std::string step;
   std::optional<double> time_s;
   std::vector<std::optional<double>> gauges_microstrain;  // one per gauge column, in order
+  std::optional<double> temperature_c = {};
 };
 
 struct Session {

@@ -214,21 +214,36 @@ Status ReadRulerTable(Session& session, SeenImages& seen) {
   return {};
 }
 
+// Every gauge whose place is given reads into a column.
+Status CheckGaugeColumns(const Session& session, const TableReader& table) {
+  for (const PipeGauge& gauge : session.pipe.gauges) {
+    if (IsGaugeColumn(gauge.column) && table.Has(gauge.column)) continue;
+    return BadInput(table.HeaderPlace() + ": has no gauge column '" + gauge.column +
+                    "', which a [[pipe.gauge]] of session.toml names (nearest column: '" +
+                    NearestWord(gauge.column, table.table().columns) +
+                    "'); correct its 'column' or add the readings");
+  }
+  return {};
+}
+
 Status ReadPipeTable(Session& session, SeenImages& seen) {
   const fs::path path = session.folder / "pipe.csv";
   if (!IsThere(path)) return {};
-  TELESTRAIN_ASSIGN_OR_RETURN(const TableReader table,
-                              OpenTable(path, {{"image", "cycle", "step"}, {"time_s"}, true}));
+  TELESTRAIN_ASSIGN_OR_RETURN(
+      const TableReader table,
+      OpenTable(path, {{"image", "cycle", "step"}, {"time_s", "temperature_c"}, true}));
   TELESTRAIN_RETURN_IF_ERROR(
       RequireArtefact(session, table, session.pipe.outer_diameter_mm > 0, "pipe"));
   std::copy_if(table.table().columns.begin(), table.table().columns.end(),
                std::back_inserter(session.gauge_columns), IsGaugeColumn);
+  TELESTRAIN_RETURN_IF_ERROR(CheckGaugeColumns(session, table));
   for (int row = 0; row < table.size(); ++row) {
     PipeState& state = session.pipe_states.emplace_back();
     TELESTRAIN_ASSIGN_OR_RETURN(state.image, ReadImage(table, row, session.folder, seen));
     state.cycle = table.Cell(row, "cycle");
     state.step = table.Cell(row, "step");
     TELESTRAIN_ASSIGN_OR_RETURN(state.time_s, table.OptionalNumber(row, "time_s"));
+    TELESTRAIN_ASSIGN_OR_RETURN(state.temperature_c, table.OptionalNumber(row, "temperature_c"));
     for (const std::string& gauge : session.gauge_columns) {
       TELESTRAIN_ASSIGN_OR_RETURN(state.gauges_microstrain.emplace_back(),
                                   table.OptionalNumber(row, gauge));

@@ -108,11 +108,43 @@ FieldReader RulerTable(RulerSpec& ruler) {
                          Number(ruler.sigma_length_um, From(0, kLargestUncertainty_um)))});
 }
 
+Status ReadGauge(const TomlNode& node, PipeSpec& pipe) {
+  constexpr double kRadPerDeg = std::numbers::pi / 180.0;
+  PipeGauge gauge;
+  double angle_deg = 0, sigma_angle_deg = 0;
+  int reads = 0;
+  TELESTRAIN_RETURN_IF_ERROR(ReadFields(
+      node,
+      {Required("column", Text(gauge.column)),
+       Required("axial_mm", Number(gauge.axial_mm, From(-kLargestLength_mm, kLargestLength_mm))),
+       Required("angle_deg", Number(angle_deg, From(-360, 360))),
+       Optional("length_mm", Number(gauge.length_mm, From(0, kLargestLength_mm))),
+       Optional("sigma_microstrain", Number(gauge.sigma_microstrain, From(0, 1e6))),
+       Optional("sigma_angle_deg", Number(sigma_angle_deg, From(0, 180))),
+       Optional("reads", OneOf(reads, {"mechanical", "apparent"}))}));
+  for (const PipeGauge& other : pipe.gauges)
+    if (other.column == gauge.column)
+      return BadInput(node.place + "column '" + gauge.column +
+                      "' has two [[pipe.gauge]]; keep one per column");
+  gauge.angle_rad = angle_deg * kRadPerDeg;
+  gauge.sigma_angle_rad = sigma_angle_deg * kRadPerDeg;
+  gauge.reads_thermal_strain = reads == 1;
+  pipe.gauges.push_back(gauge);
+  return {};
+}
+
 FieldReader PipeTable(PipeSpec& pipe) {
+  const auto expansion = From(-1e-2, 1e-2);
   return Table(
       {Required("outer_diameter_mm", Number(pipe.outer_diameter_mm, Above(0, kLargestLength_mm))),
        Required("poisson_ratio", Number(pipe.poisson_ratio, From(-1, 0.5))),
-       Optional("material", Text(pipe.material))});
+       Optional("material", Text(pipe.material)),
+       Optional("thermal_expansion_per_k", Number(pipe.thermal_expansion_per_k, expansion)),
+       Optional("sigma_thermal_expansion_per_k",
+                Number(pipe.sigma_thermal_expansion_per_k, From(0, 1e-2))),
+       Optional("sigma_temperature_k", Number(pipe.sigma_temperature_k, From(0, 1000))),
+       Optional("gauge", Tables("[[pipe.gauge]]",
+                                [&pipe](const auto& node) { return ReadGauge(node, pipe); }))});
 }
 
 FieldReader AcceptanceTable(AcceptanceSpec& acceptance) {

@@ -158,11 +158,26 @@ void WriteArtefacts(const Session& session, TomlWriter& toml) {
     toml.Number("length_mm", session.ruler.length_mm);
     toml.Number("sigma_length_um", session.ruler.sigma_length_um, 0);
   }
-  if (session.pipe.outer_diameter_mm > 0) {
-    toml.Head("[pipe]");
-    toml.Number("outer_diameter_mm", session.pipe.outer_diameter_mm);
-    toml.Number("poisson_ratio", session.pipe.poisson_ratio);
-    if (!session.pipe.material.empty()) toml.Text("material", session.pipe.material);
+}
+
+void WritePipe(const PipeSpec& pipe, TomlWriter& toml) {
+  if (pipe.outer_diameter_mm <= 0) return;
+  toml.Head("[pipe]");
+  toml.Number("outer_diameter_mm", pipe.outer_diameter_mm);
+  toml.Number("poisson_ratio", pipe.poisson_ratio);
+  if (!pipe.material.empty()) toml.Text("material", pipe.material);
+  toml.Number("thermal_expansion_per_k", pipe.thermal_expansion_per_k, 0);
+  toml.Number("sigma_thermal_expansion_per_k", pipe.sigma_thermal_expansion_per_k, 0);
+  toml.Number("sigma_temperature_k", pipe.sigma_temperature_k, 0);
+  for (const PipeGauge& gauge : pipe.gauges) {
+    toml.Head("[[pipe.gauge]]");
+    toml.Text("column", gauge.column);
+    toml.Number("axial_mm", gauge.axial_mm);
+    toml.Number("angle_deg", DegreesOf(gauge.angle_rad));
+    toml.Number("length_mm", gauge.length_mm, 0);
+    toml.Number("sigma_microstrain", gauge.sigma_microstrain, 0);
+    toml.Number("sigma_angle_deg", DegreesOf(gauge.sigma_angle_rad), 0);
+    if (gauge.reads_thermal_strain) toml.Text("reads", "apparent");
   }
 }
 
@@ -187,6 +202,7 @@ std::string SessionToml(const Session& session) {
   WriteInstrument(session, toml);
   for (const NominalView& view : session.views) WriteView(view, toml);
   WriteArtefacts(session, toml);
+  WritePipe(session.pipe, toml);
   WriteLimitsAndTexts(session, toml);
   return toml.text();
 }
@@ -208,15 +224,20 @@ std::string PipeCsv(const Session& session) {
   const auto cell = [](const std::optional<double>& value) {
     return value ? FormatShortest(*value) : std::string{};
   };
-  bool has_times = false;
-  for (const PipeState& state : session.pipe_states) has_times |= state.time_s.has_value();
+  bool has_times = false, has_temperatures = false;
+  for (const PipeState& state : session.pipe_states) {
+    has_times |= state.time_s.has_value();
+    has_temperatures |= state.temperature_c.has_value();
+  }
   std::vector<std::string> header{"image", "cycle", "step"};
   if (has_times) header.push_back("time_s");
+  if (has_temperatures) header.push_back("temperature_c");
   header.insert(header.end(), session.gauge_columns.begin(), session.gauge_columns.end());
   std::string csv = CsvLine(header);
   for (const PipeState& state : session.pipe_states) {
     std::vector<std::string> cells{state.image, state.cycle, state.step};
     if (has_times) cells.push_back(cell(state.time_s));
+    if (has_temperatures) cells.push_back(cell(state.temperature_c));
     for (const auto& gauge : state.gauges_microstrain) cells.push_back(cell(gauge));
     csv += CsvLine(cells);
   }

@@ -63,6 +63,18 @@ TEST(ReadSessionErrorTest, PipeImagesWithoutPipe) {
   ExpectSays(MessageOf(sample), "pipe.csv:2: lists images, but");
 }
 
+TEST(ReadSessionErrorTest, GaugeWithoutReadingsOrTwice) {
+  const SampleFolder sample("gauge_places");
+  const std::string place = "material = \"copper\"\n";
+  const std::string gauge = "[[pipe.gauge]]\naxial_mm = 0\nangle_deg = 90\ncolumn = ";
+  sample.Replace("session.toml", place, place + gauge + "\"gauge_2_microstrain\"\n");
+  ExpectSays(MessageOf(sample), "pipe.csv:1: has no gauge column 'gauge_2_microstrain'");
+  ExpectSays(MessageOf(sample), "nearest column: 'gauge_1_microstrain'");
+  const std::string there = gauge + "\"gauge_1_microstrain\"\n";
+  sample.Replace("session.toml", gauge + "\"gauge_2_microstrain\"\n", there + there);
+  ExpectSays(MessageOf(sample), "column 'gauge_1_microstrain' has two [[pipe.gauge]]");
+}
+
 TEST(ReadSessionErrorTest, LinkToNowhereIsNoAbsentTable) {
   const SampleFolder sample("dangling");
   sample.Remove("ruler.csv");

@@ -72,6 +72,10 @@ void ExpectEqualArtefacts(const Session& a, const Session& b) {
   EXPECT_EQ(a.pipe.outer_diameter_mm, b.pipe.outer_diameter_mm);
   EXPECT_EQ(a.pipe.poisson_ratio, b.pipe.poisson_ratio);
   EXPECT_EQ(a.pipe.material, b.pipe.material);
+  EXPECT_EQ(a.pipe.thermal_expansion_per_k, b.pipe.thermal_expansion_per_k);
+  EXPECT_EQ(a.pipe.sigma_thermal_expansion_per_k, b.pipe.sigma_thermal_expansion_per_k);
+  EXPECT_EQ(a.pipe.sigma_temperature_k, b.pipe.sigma_temperature_k);
+  EXPECT_EQ(a.pipe.gauges, b.pipe.gauges);
   EXPECT_EQ(a.acceptance.reprojection_rms_px, b.acceptance.reprojection_rms_px);
   EXPECT_EQ(a.acceptance.ruler_mpe_um, b.acceptance.ruler_mpe_um);
   EXPECT_EQ(a.acceptance.strain_error_microstrain, b.acceptance.strain_error_microstrain);
@@ -96,6 +100,7 @@ void ExpectEqualTables(const Session& a, const Session& b) {
     EXPECT_EQ(a.pipe_states[i].step, b.pipe_states[i].step);
     EXPECT_EQ(a.pipe_states[i].time_s, b.pipe_states[i].time_s);
     EXPECT_EQ(a.pipe_states[i].gauges_microstrain, b.pipe_states[i].gauges_microstrain);
+    EXPECT_EQ(a.pipe_states[i].temperature_c, b.pipe_states[i].temperature_c);
   }
 }
 
@@ -129,6 +134,27 @@ TEST(WriteSessionTest, ReadingBackIsExactForAwkwardValues) {
   session.pipe_states[0].time_s.reset();
   session.pipe_states[1].gauges_microstrain = {-1.0 / 3.0, std::nullopt};
   session.acceptance.ruler_mpe_um.reset();
+  ExpectRoundTrip(session, sample.path());
+}
+
+TEST(WriteSessionTest, GaugePlacesAndTemperaturesAreReadBack) {
+  const SampleFolder sample("gauges");
+  Session session = ReadOrFail(sample.path());
+  session.pipe.thermal_expansion_per_k = 8.6e-6;
+  session.pipe.sigma_thermal_expansion_per_k = 2e-7;
+  session.pipe.sigma_temperature_k = 0.1;
+  session.pipe.gauges.resize(2);
+  session.pipe.gauges[0].column = "gauge_1_microstrain";
+  session.pipe.gauges[0].angle_rad = 0.5 * std::numbers::pi;
+  session.pipe.gauges[0].length_mm = 3;
+  session.pipe.gauges[1].column = "gauge_back_microstrain";
+  session.pipe.gauges[1].axial_mm = -1.25;
+  session.pipe.gauges[1].angle_rad = -std::numbers::pi;
+  session.pipe.gauges[1].sigma_microstrain = 1;
+  session.pipe.gauges[1].sigma_angle_rad = std::numbers::pi / 180;
+  session.pipe.gauges[1].reads_thermal_strain = true;
+  session.pipe_states[0].temperature_c = 20;
+  session.pipe_states[1].temperature_c = 21.5;
   ExpectRoundTrip(session, sample.path());
 }
 
