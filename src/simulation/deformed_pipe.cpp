@@ -9,12 +9,25 @@ Eigen::Vector3d DeformedPipe::Material(double along_mm, double angle_rad) const 
   return {along_mm, radius_mm * std::sin(angle_rad), radius_mm * std::cos(angle_rad)};
 }
 
+Eigen::Matrix3d DeformedPipe::BendingAxes() const {
+  const double cosine = std::cos(curvature_angle_rad), sine = std::sin(curvature_angle_rad);
+  Eigen::Matrix3d axes;
+  axes << 1, 0, 0, 0, cosine, sine, 0, -sine, cosine;
+  return axes;
+}
+
+Eigen::Vector3d DeformedPipe::BendingDisplacement_mm(const Eigen::Vector3d& material_mm) const {
+  const Eigen::Matrix3d axes = BendingAxes();
+  const Eigen::Vector3d p = axes.transpose() * material_mm;
+  const double k = curvature_per_mm, n = poisson_ratio;
+  return axes *
+         Eigen::Vector3d(-k * p.x() * p.z(), n * k * p.y() * p.z(),
+                         0.5 * k * p.x() * p.x() + 0.5 * n * k * (p.z() * p.z() - p.y() * p.y()));
+}
+
 Eigen::Vector3d DeformedPipe::Displacement_mm(const Eigen::Vector3d& p) const {
   const double a = UniformAxial(), h = UniformAcross();
-  const double k = curvature_per_mm, n = poisson_ratio;
-  Eigen::Vector3d u(
-      a * p.x() - k * p.x() * p.z(), h * p.y() + n * k * p.y() * p.z(),
-      h * p.z() + 0.5 * k * p.x() * p.x() + 0.5 * n * k * (p.z() * p.z() - p.y() * p.y()));
+  Eigen::Vector3d u = Eigen::Vector3d(a * p.x(), h * p.y(), h * p.z()) + BendingDisplacement_mm(p);
   if (twist_rad_per_mm == 0) return u;
   const double phi = twist_rad_per_mm * p.x(), sine = std::sin(phi);
   const double one_minus_cosine = 2 * std::sin(0.5 * phi) * std::sin(0.5 * phi);
@@ -24,12 +37,15 @@ Eigen::Vector3d DeformedPipe::Displacement_mm(const Eigen::Vector3d& p) const {
 }
 
 Eigen::Matrix3d DeformedPipe::DisplacementGradient(const Eigen::Vector3d& p) const {
-  const double a = UniformAxial(), h = UniformAcross();
   const double k = curvature_per_mm, n = poisson_ratio;
-  Eigen::Matrix3d gradient;
-  gradient << a - k * p.z(), 0, -k * p.x(),  // u_x
-      0, h + n * k * p.z(), n * k * p.y(),   // u_y
-      k * p.x(), -n * k * p.y(), h + n * k * p.z();
+  const Eigen::Matrix3d axes = BendingAxes();
+  const Eigen::Vector3d q = axes.transpose() * p;
+  Eigen::Matrix3d bending;
+  bending << -k * q.z(), 0, -k * q.x(),  // u_x
+      0, n * k * q.z(), n * k * q.y(),   // u_y
+      k * q.x(), -n * k * q.y(), n * k * q.z();
+  Eigen::Matrix3d gradient = axes * bending * axes.transpose();
+  gradient.diagonal() += Eigen::Vector3d(UniformAxial(), UniformAcross(), UniformAcross());
   const double phi = twist_rad_per_mm * p.x();
   const Eigen::Matrix2d turn = Eigen::Rotation2Dd(-phi).toRotationMatrix();
   gradient.bottomRightCorner<2, 2>() += turn - Eigen::Matrix2d::Identity();

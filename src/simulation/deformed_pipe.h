@@ -16,7 +16,8 @@ struct SurfaceStrain {
 // Pipe frame: x along the axis, origin on the axis in the middle between the two groups, z through
 // the line that faces the instrument. A material point is named by where it is on the straight,
 // unloaded pipe: p = (s, R sin theta, R cos theta). Loads add up their displacements:
-//   tension e and bending k (curvature in the x-z plane), Saint-Venant, Poisson's ratio n:
+//   tension e and bending k (curvature in the plane at the angle `curvature_angle_rad`; here 0, the
+//   x-z plane), Saint-Venant, Poisson's ratio n:
 //     u = (e s - k s z,  -n e y + n k y z,  -n e z + k s^2 / 2 + n k (z^2 - y^2) / 2)
 //   pressure inside closed ends, Lame's thick wall at the outer surface (PressureStrains):
 //     u = (a s, h y, h z)
@@ -34,6 +35,7 @@ struct DeformedPipe {
   double bend_radius_mm = 0;  // B; 0: straight, positive: towards the instrument
   double membrane_strain = 0;
   double curvature_per_mm = 0;
+  double curvature_angle_rad = 0;  // of the direction to which the axis bends, as theta above
   double pressure_axial_strain = 0, pressure_hoop_strain = 0;
   double thermal_strain = 0;
   double twist_rad_per_mm = 0;
@@ -65,6 +67,9 @@ struct DeformedPipe {
   }
 
  private:
+  // Columns: x, then y and z of a pipe that is turned so that it bends in its x-z plane.
+  Eigen::Matrix3d BendingAxes() const;
+  Eigen::Vector3d BendingDisplacement_mm(const Eigen::Vector3d& material_mm) const;
   Eigen::Matrix3d DisplacementGradient(const Eigen::Vector3d& material_mm) const;
   double UniformAxial() const { return membrane_strain + pressure_axial_strain + thermal_strain; }
   double UniformAcross() const {

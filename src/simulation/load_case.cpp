@@ -1,5 +1,7 @@
 #include "simulation/load_case.h"
 
+#include <numbers>
+
 namespace telestrain {
 
 PressureStrains PressureStrainsAtSurface(const VirtualExperimentOptions& options,
@@ -20,6 +22,7 @@ DeformedPipe PipeUnderLoad(const VirtualExperimentOptions& options, const PipeSp
   pipe.bend_radius_mm = options.pipe_bend_radius_mm;
   pipe.membrane_strain = 1e-6 * options.strain_max_microstrain * load_share;
   pipe.curvature_per_mm = 1e-6 * options.bending_max_microstrain * load_share / pipe.radius_mm;
+  pipe.curvature_angle_rad = options.bending_angle_deg * std::numbers::pi / 180;
   pipe.twist_rad_per_mm = 1e-6 * options.torsion_max_microstrain * load_share / pipe.radius_mm;
   const PressureStrains pressure =
       PressureStrainsAtSurface(options, spec, options.pressure_max_mpa * load_share);

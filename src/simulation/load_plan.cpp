@@ -38,6 +38,12 @@ void MoveRigidly(const VirtualExperimentOptions& options, RandomStream& random,
   pipe.origin_in_array_mm = Eigen::Vector3d(0, 0, -pipe.radius_mm) + shift;
 }
 
+// A thermometer on the pipe, which is at 20 degrees when it is not loaded; only where it warms.
+std::optional<double> ReadTemperature_c(const VirtualExperimentOptions& options, double share) {
+  if (options.temperature_change_k == 0) return {};
+  return std::round(1000 * (20 + share * options.temperature_change_k)) / 1000;
+}
+
 std::vector<std::optional<double>> ReadGauges(const VirtualExperimentOptions& options,
                                               const DeformedPipe& pipe, RandomStream& random) {
   std::vector<std::optional<double>> readings;
@@ -111,10 +117,10 @@ std::vector<PipeTruth> PlanLoads(const VirtualExperimentOptions& options, const 
     MoveRigidly(options, motion, pipe);
     std::string number = std::to_string(i);
     if (number.size() < 3) number.insert(0, 3 - number.size(), '0');
-    states.push_back(
-        {{"pipe/pipe_" + number + ".png", std::to_string(cycle + 1), std::to_string(step),
-          i * options.image_interval_s, ReadGauges(options, pipe, gauges)},
-         pipe});
+    states.push_back({{"pipe/pipe_" + number + ".png", std::to_string(cycle + 1),
+                       std::to_string(step), i * options.image_interval_s,
+                       ReadGauges(options, pipe, gauges), ReadTemperature_c(options, share)},
+                      pipe});
   }
   return states;
 }

@@ -71,6 +71,22 @@ TargetSpec NominalTarget() {
   return target;
 }
 
+// Four gauges in the middle of the pipe, 90 degrees apart, which read thermal expansion too; the
+// expansion is told only where the pipe warms.
+PipeSpec NominalPipe(const VirtualExperimentOptions& options) {
+  PipeSpec pipe{options.pipe_diameter_mm, 0.31, "TA18 titanium tube"};
+  if (options.temperature_change_k != 0)
+    pipe.thermal_expansion_per_k = 1e-6 * options.expansion_ppm_per_k;
+  for (int gauge = 0; gauge < 4 && options.gauges && options.pipe_states > 0; ++gauge) {
+    PipeGauge& added = pipe.gauges.emplace_back();
+    added.column = "gauge_" + std::to_string(gauge + 1) + "_microstrain";
+    added.angle_rad = 0.5 * gauge * std::numbers::pi;
+    added.sigma_microstrain = options.gauge_sigma_microstrain;
+    added.reads_thermal_strain = true;
+  }
+  return pipe;
+}
+
 // Limits only for what is recorded: one that cannot be decided is not passed.
 AcceptanceSpec NominalAcceptance(const VirtualExperimentOptions& options) {
   AcceptanceSpec acceptance;
@@ -104,7 +120,7 @@ Session NominalSession(const VirtualExperimentOptions& options) {
     for (const int view : {0, 1}) session.views.push_back(MakeView(session, group, view));
   session.target = NominalTarget();
   session.ruler = {27.6, 0.25};
-  session.pipe = {options.pipe_diameter_mm, 0.31, "TA18 titanium tube"};
+  session.pipe = NominalPipe(options);
   session.acceptance = NominalAcceptance(options);
   session.document = NominalDocument(options);
   if (options.mirrors) return session;

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
@@ -112,6 +113,7 @@ Json StateJson(const ExperimentTruth& truth, const PipeTruth& state) {
   const TrueStrain strain = StrainOf(truth, state);
   const Eigen::Vector3d turn_deg =
       LogRotation(pipe.RotationFrom(reference)) * 180 / std::numbers::pi;
+  const double bending = 1e6 * pipe.curvature_per_mm * pipe.radius_mm;
   return {{"image", state.state.image},
           {"cycle", state.state.cycle},
           {"step", state.state.step},
@@ -121,7 +123,9 @@ Json StateJson(const ExperimentTruth& truth, const PipeTruth& state) {
           {"hoop_microstrain", 1e6 * strain.hoop},
           {"shear_microstrain", 1e6 * strain.shear},
           {"membrane_microstrain", 1e6 * pipe.membrane_strain},
-          {"bending_microstrain", 1e6 * pipe.curvature_per_mm * pipe.radius_mm},
+          {"bending_microstrain", bending},
+          {"bending_0_microstrain", -bending * std::cos(pipe.curvature_angle_rad)},
+          {"bending_90_microstrain", -bending * std::sin(pipe.curvature_angle_rad)},
           {"pressure_axial_microstrain", 1e6 * pipe.pressure_axial_strain},
           {"pressure_hoop_microstrain", 1e6 * pipe.pressure_hoop_strain},
           {"thermal_microstrain", 1e6 * pipe.thermal_strain},

@@ -63,6 +63,7 @@ struct VirtualExperimentOptions {
   double expansion_ppm_per_k = 8.6;
   double strain_max_microstrain = 750.0;
   double bending_max_microstrain = 5.0;
+  double bending_angle_deg = 0.0;
   double torsion_max_microstrain = 0.0;
   double pressure_max_mpa = 0.0;
   double temperature_change_k = 0.0;

@@ -108,6 +108,11 @@ constexpr std::array kTable{
     Info{"bending_max_microstrain", "microstrain", -500, 500,
          "bending strain of the pipe's outermost fibre at full load",
          &Options::bending_max_microstrain},
+    Info{
+        "bending_angle_deg", "deg", -360, 360,
+        "direction, about the pipe's axis, to which it bends: 0 towards the instrument, 90 towards "
+        "the array's y; the fibre there is pressed",
+        &Options::bending_angle_deg},
     Info{"torsion_max_microstrain", "microstrain", -5000, 5000,
          "shear strain of the surface at full load", &Options::torsion_max_microstrain},
     Info{"pressure_max_mpa", "MPa", 0, 200, "internal pressure at full load; the ends are closed",
