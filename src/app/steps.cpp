@@ -144,7 +144,8 @@ Status MeasureStep(const Session& session, const fs::path& results, Console& con
                               MeasurePipe(session, array, DefaultPipeOptions(session), console));
   for (std::size_t i = 0; i < measurement.states.size(); ++i)
     TELESTRAIN_RETURN_IF_ERROR(WriteFileAtomically(
-        results / SurfaceFileName(i), SurfaceVtp(measurement.grid, measurement.states[i].strain)));
+        results / SurfaceFileName(i),
+        SurfaceVtp(measurement.grid, measurement.states[i].strain, &measurement.geometry)));
   TELESTRAIN_ASSIGN_OR_RETURN(const auto made_from,
                               HashesOf(results, {"inputs.json", "calibration.json"}));
   TELESTRAIN_RETURN_IF_ERROR(WriteFileAtomically(results / "strain.csv", StrainCsv(measurement)));

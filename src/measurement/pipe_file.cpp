@@ -8,6 +8,7 @@
 
 #include "base/csv.h"
 #include "base/numbers.h"
+#include "measurement/strain_json.h"
 
 namespace telestrain {
 namespace {
@@ -28,27 +29,25 @@ double LocalMicrostrain(const StateStrain& strain, std::size_t group) {
 
 Json StateJson(const MeasuredState& state, std::size_t row) {
   const StateStrain& strain = state.strain;
-  Json budget = Json::array();
-  for (const BudgetLine& line : strain.budget)
-    budget.push_back({{"source", line.source},
-                      {"standard_uncertainty_microstrain", kMicro * line.standard_uncertainty}});
-  return {{"image", state.table.image},
-          {"cycle", state.table.cycle},
-          {"step", state.table.step},
-          {"axial_microstrain", kMicro * strain.axial_strain},
-          {"standard_uncertainty_microstrain", kMicro * strain.standard_uncertainty},
-          {"local_a_microstrain", LocalMicrostrain(strain, 0)},
-          {"local_b_microstrain", LocalMicrostrain(strain, 1)},
-          {"local_sigma_microstrain", kMicro * strain.local_sigma},
-          {"gauge_mean_microstrain", OptionalNumber(state.gauge_mean_microstrain)},
-          {"gauge_change_microstrain", OptionalNumber(state.gauge_change_microstrain)},
-          {"points_used", strain.points_used},
-          {"points_rejected", strain.points_rejected},
-          {"rigid_motion",
-           {{"translation_mm", ArrayOf(strain.translation_mm)},
-            {"rotation_deg", ArrayOf(strain.rotation_rad * kDegPerRad)}}},
-          {"budget", budget},
-          {"file", SurfaceFileName(row)}};
+  Json json{{"image", state.table.image},
+            {"cycle", state.table.cycle},
+            {"step", state.table.step},
+            {"axial_microstrain", kMicro * strain.axial_strain},
+            {"standard_uncertainty_microstrain", kMicro * strain.standard_uncertainty},
+            {"local_a_microstrain", LocalMicrostrain(strain, 0)},
+            {"local_b_microstrain", LocalMicrostrain(strain, 1)},
+            {"local_sigma_microstrain", kMicro * strain.local_sigma},
+            {"gauge_mean_microstrain", OptionalNumber(state.gauge_mean_microstrain)},
+            {"gauge_change_microstrain", OptionalNumber(state.gauge_change_microstrain)},
+            {"points_used", strain.points_used},
+            {"points_rejected", strain.points_rejected},
+            {"rigid_motion",
+             {{"translation_mm", ArrayOf(strain.translation_mm)},
+              {"rotation_deg", ArrayOf(strain.rotation_rad * kDegPerRad)}}},
+            {"budget", BudgetLinesJson(strain.budget)},
+            {"file", SurfaceFileName(row)}};
+  json.update(StrainDetailsJson(strain));
+  return json;
 }
 
 Json ComparisonJson(const std::optional<GaugeComparison>& comparison) {
@@ -120,17 +119,34 @@ std::string SurfaceFileName(std::size_t state) {
 }
 
 std::string StrainCsv(const PipeMeasurement& measurement) {
-  std::string text =
-      "image,cycle,step,axial_microstrain,standard_uncertainty_microstrain,local_a_microstrain,"
-      "local_b_microstrain,gauge_mean_microstrain\n";
-  for (const MeasuredState& state : measurement.states)
-    text += CsvLine({state.table.image, state.table.cycle, state.table.step,
-                     FormatFixed(kMicro * state.strain.axial_strain, 3),
-                     FormatFixed(kMicro * state.strain.standard_uncertainty, 3),
-                     FormatFixed(LocalMicrostrain(state.strain, 0), 3),
-                     FormatFixed(LocalMicrostrain(state.strain, 1), 3),
-                     state.gauge_mean_microstrain ? FormatFixed(*state.gauge_mean_microstrain, 3)
-                                                  : std::string()});
+  std::vector<std::string> header{"image",
+                                  "cycle",
+                                  "step",
+                                  "axial_microstrain",
+                                  "standard_uncertainty_microstrain",
+                                  "local_a_microstrain",
+                                  "local_b_microstrain",
+                                  "gauge_mean_microstrain"};
+  const auto append = [](std::vector<std::string>& row, const std::vector<std::string>& more) {
+    row.insert(row.end(), more.begin(), more.end());
+  };
+  if (!measurement.states.empty())
+    append(header, StrainDetailColumns(measurement.states.front().strain));
+  std::string text = CsvLine(header);
+  for (const MeasuredState& state : measurement.states) {
+    std::vector<std::string> row{state.table.image,
+                                 state.table.cycle,
+                                 state.table.step,
+                                 FormatFixed(kMicro * state.strain.axial_strain, 3),
+                                 FormatFixed(kMicro * state.strain.standard_uncertainty, 3),
+                                 FormatFixed(LocalMicrostrain(state.strain, 0), 3),
+                                 FormatFixed(LocalMicrostrain(state.strain, 1), 3),
+                                 state.gauge_mean_microstrain
+                                     ? FormatFixed(*state.gauge_mean_microstrain, 3)
+                                     : std::string()};
+    append(row, StrainDetailCells(state.strain));
+    text += CsvLine(row);
+  }
   return text;
 }
 
@@ -153,6 +169,8 @@ nlohmann::ordered_json StrainJson(const PipeMeasurement& measurement,
             {"surface_rms_mm", grid.surface_rms_mm},
             {"points", grid.points.size()},
             {"rejected", grid.rejected}}},
+          {"geometry", PipeGeometryJson(measurement.geometry)},
+          {"definitions", StrainDefinitionsJson()},
           {"base_length_mm", BaseLength_mm(grid)},
           {"options",
            {{"subset_px", measurement.options.subset_px},
@@ -167,10 +185,48 @@ nlohmann::ordered_json StrainJson(const PipeMeasurement& measurement,
           {"budget", BudgetJson(measurement.states)}};
 }
 
-std::string SurfaceVtp(const PipeGrid& grid, const StateStrain& state) {
+namespace {
+
+// One array of point data as it grows, point by point.
+struct PointArray {
+  const char* name;
+  int decimals;
+  std::function<double(std::size_t)> value;
+  std::string text = {};
+};
+
+std::vector<PointArray> ScalarArrays(const StateStrain& state, const PipeGeometry* geometry) {
+  const auto micro = [&state](double SurfaceTensor::*member) {
+    return [&state, member](std::size_t i) { return kMicro * state.points[i].tensor.*member; };
+  };
+  std::vector<PointArray> arrays{
+      {"axial_microstrain", 3, micro(&SurfaceTensor::axial)},
+      {"hoop_microstrain", 3, micro(&SurfaceTensor::hoop)},
+      {"zncc", 6, [&state](std::size_t i) { return state.points[i].zncc; }},
+      {"sigma_um", 6, [&state](std::size_t i) { return state.points[i].sigma_um; }},
+      {"shear_microstrain", 3, micro(&SurfaceTensor::shear)},
+      {"principal_1_microstrain", 3, micro(&SurfaceTensor::principal_1)},
+      {"principal_2_microstrain", 3, micro(&SurfaceTensor::principal_2)},
+      {"principal_angle_deg", 3,
+       [&state](std::size_t i) { return kDegPerRad * state.points[i].tensor.principal_angle_rad; }},
+      {"green_axial_microstrain", 3, micro(&SurfaceTensor::green_axial)},
+      {"green_hoop_microstrain", 3, micro(&SurfaceTensor::green_hoop)},
+      {"green_shear_microstrain", 3, micro(&SurfaceTensor::green_shear)}};
+  if (geometry)
+    arrays.push_back({"radial_deviation_um", 4, [geometry](std::size_t i) {
+                        return 1000 * geometry->radial_deviation_mm[i];
+                      }});
+  return arrays;
+}
+
+}  // namespace
+
+std::string SurfaceVtp(const PipeGrid& grid, const StateStrain& state,
+                       const PipeGeometry* geometry) {
   std::vector<int> id_of_point(grid.points.size(), -1);
   int count = 0;
-  std::string points, displacement, axial, hoop, zncc, sigma, group;
+  std::string points, displacement, group;
+  std::vector<PointArray> arrays = ScalarArrays(state, geometry);
   for (std::size_t i = 0; i < grid.points.size(); ++i) {
     const PointResult& result = state.points[i];
     // Too few neighbours: no strain, and VTK's text format has no NaN.
@@ -178,13 +234,11 @@ std::string SurfaceVtp(const PipeGrid& grid, const StateStrain& state) {
     id_of_point[i] = count++;
     points += Triple(grid.points[i].reference_in_array_mm + result.displacement_mm, 7);
     displacement += Triple(result.displacement_mm, 8);
-    axial += Scalar(kMicro * result.axial_strain, 3);
-    hoop += Scalar(kMicro * result.hoop_strain, 3);
-    zncc += Scalar(result.zncc, 6);
-    sigma += Scalar(result.sigma_um, 6);
+    for (PointArray& array : arrays) array.text += Scalar(array.value(i), array.decimals);
     group += std::to_string(grid.points[i].group) + "\n";
   }
-  std::string connectivity, offsets;
+  std::string scalars, connectivity, offsets;
+  for (const PointArray& array : arrays) scalars += DataArray("Float64", array.name, 1, array.text);
   int end = 0;
   const auto quads = Quads(grid, id_of_point);
   for (const auto& quad : quads) {
@@ -198,11 +252,8 @@ std::string SurfaceVtp(const PipeGrid& grid, const StateStrain& state) {
          std::to_string(count) + "\" NumberOfPolys=\"" + std::to_string(quads.size()) +
          "\">\n      <Points>\n" + DataArray("Float64", "position_in_array_mm", 3, points) +
          "      </Points>\n      <PointData Scalars=\"axial_microstrain\">\n" +
-         DataArray("Float64", "displacement_mm", 3, displacement) +
-         DataArray("Float64", "axial_microstrain", 1, axial) +
-         DataArray("Float64", "hoop_microstrain", 1, hoop) + DataArray("Float64", "zncc", 1, zncc) +
-         DataArray("Float64", "sigma_um", 1, sigma) + DataArray("Int32", "group", 1, group) +
-         "      </PointData>\n      <Polys>\n" +
+         DataArray("Float64", "displacement_mm", 3, displacement) + scalars +
+         DataArray("Int32", "group", 1, group) + "      </PointData>\n      <Polys>\n" +
          DataArray("Int64", "connectivity", 1, connectivity) +
          DataArray("Int64", "offsets", 1, offsets) +
          "      </Polys>\n    </Piece>\n  </PolyData>\n</VTKFile>\n";

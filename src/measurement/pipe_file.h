@@ -19,7 +19,9 @@ nlohmann::ordered_json StrainJson(const PipeMeasurement& measurement,
 std::string SurfaceFileName(std::size_t state);
 
 // The surface of one state as VTK XML PolyData: points where they are in that state (array frame,
-// mm), displacement, strain, quality and uncertainty as point data, quads between grid neighbours.
-std::string SurfaceVtp(const PipeGrid& grid, const StateStrain& state);
+// mm), displacement, strain tensor, quality and uncertainty as point data, with `geometry` the
+// roundness too; quads between grid neighbours.
+std::string SurfaceVtp(const PipeGrid& grid, const StateStrain& state,
+                       const PipeGeometry* geometry = nullptr);
 
 }  // namespace telestrain

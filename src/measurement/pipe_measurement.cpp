@@ -39,6 +39,11 @@ std::optional<double> ChangeOfGauges(const PipeState& reference, const PipeState
   return sum / count;
 }
 
+std::optional<double> TemperatureChange_k(const PipeState& reference, const PipeState& state) {
+  if (!reference.temperature_c || !state.temperature_c) return {};
+  return *state.temperature_c - *reference.temperature_c;
+}
+
 std::optional<GaugeComparison> Compare(const std::vector<MeasuredState>& states) {
   std::vector<std::pair<double, double>> pairs;  // gauge, camera
   double variances = 0;
@@ -93,11 +98,17 @@ Result<PipeMeasurement> MeasurePipe(const Session& session, const ArrayCalibrati
                               PipeTracker::Start(session, array, reference, options));
   PipeMeasurement measurement;
   measurement.grid = tracker.grid();
+  TELESTRAIN_ASSIGN_OR_RETURN(
+      measurement.geometry,
+      MeasurePipeGeometry(array, tracker.grid(), session.pipe.outer_diameter_mm));
+  const StrainModel model = MakeStrainModel(session, tracker.grid(), measurement.geometry);
   measurement.options = options;
   measurement.magnification_px_per_mm = array.Magnification_px_per_mm();
   for (std::size_t row = 0; row < session.pipe_states.size(); ++row) {
     TELESTRAIN_ASSIGN_OR_RETURN(const GrayImage image, ReadPipeImage(session, row));
-    auto strain = AnalyseState(array, tracker.grid(), tracker.Track(image));
+    auto strain =
+        AnalyseState(array, tracker.grid(), tracker.Track(image), model,
+                     TemperatureChange_k(session.pipe_states[0], session.pipe_states[row]));
     if (!strain)
       return Error{strain.error().kind,
                    session.pipe_states[row].image + ": " + strain.error().message};

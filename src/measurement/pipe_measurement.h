@@ -34,6 +34,7 @@ struct GaugeComparison {
 
 struct PipeMeasurement {
   PipeGrid grid;
+  PipeGeometry geometry;
   double magnification_px_per_mm = 0;
   CorrelationOptions options;
   std::vector<MeasuredState> states;  // one per row of pipe.csv, the reference first

@@ -1,96 +1,97 @@
 #include "measurement/strain.h"
 
-#include <Eigen/Geometry>
-#include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "base/check.h"
 #include "geometry/rotation.h"
+#include "measurement/point_strain.h"
 
 namespace telestrain {
 namespace {
 
-constexpr int kMinPatchPoints = 8;
+constexpr std::size_t kMinPatchPoints = 8;
 constexpr double kOutlierSigmas = 5.0;
 constexpr double kOutlierFloor_mm = 5e-4;  // below it a deviation is no outlier but real strain
 constexpr double kMaxEpipolarChange_px = 0.3;
-// Largest bias of a subset match over the sub-pixel positions, px: measured 0.0002 on soft, 0.0003
-// on sharp and 0.0012 on aliased patterns. Enters once per patch as a rectangular distribution.
-constexpr double kCorrelationBias_px = 1.2e-3;
 
-// A tracked point with its two positions, in the array of whichever calibration is asked.
-struct Pair3d {
-  Eigen::Vector3d reference_mm, displacement_mm;
-  Eigen::Matrix3d covariance_mm2;
-  double epipolar_change_px = 0;
-};
+using Groups = std::vector<std::vector<std::size_t>>;
 
-Pair3d Locate(const ArrayCalibration& array, const PipeGrid& grid, const PipePoint& point,
-              const TrackedPoint& tracked) {
-  const StereoPair& pair = grid.pairs[static_cast<std::size_t>(point.group)];
-  const TriangulatedPoint before = Triangulate(
-      array, {{pair.first, point.first_center_px.cast<double>(), Eigen::Matrix2d::Zero()},
-              {pair.second, point.second_pixel, Eigen::Matrix2d::Zero()}});
-  const TriangulatedPoint after = Triangulate(array, {tracked.measured[0], tracked.measured[1]});
-  return {before.in_array_mm, after.in_array_mm - before.in_array_mm, after.covariance_mm2,
-          std::abs(after.residual_px - before.residual_px)};
+// Distance from the array's focus plane, away from the camera: along the bisector of the pair.
+double Depth_mm(const ArrayCalibration& array, const StereoPair& pair,
+                const Eigen::Vector3d& in_array_mm) {
+  const TelecentricView& first = array.views[static_cast<std::size_t>(pair.first)];
+  const TelecentricView& second = array.views[static_cast<std::size_t>(pair.second)];
+  return (first.Depth_mm(in_array_mm) + second.Depth_mm(in_array_mm)) /
+         (first.ViewingDirection() + second.ViewingDirection()).norm();
 }
 
-using Design = Eigen::Matrix<double, Eigen::Dynamic, 4>;
+// Why a located point is not used; empty when it is.
+std::string ReasonAgainst(const StateInput& input, const PipePoint& point,
+                          const LocatedPoint& located) {
+  if (located.epipolar_change_px > kMaxEpipolarChange_px) return "left the epipolar line";
+  const auto& limit_mm = input.model.half_depth_of_field_mm;
+  const StereoPair& pair = input.grid.pairs[static_cast<std::size_t>(point.group)];
+  const Eigen::Vector3d now = located.point.reference_mm + located.point.displacement_mm;
+  if (limit_mm && std::abs(Depth_mm(input.array, pair, now)) > *limit_mm)
+    return "out of the depth of field";
+  return "";
+}
 
-struct PatchFit {
-  PatchField field;
-  Design design;                   // rows of the points used
-  std::vector<std::size_t> index;  // of the points used
-  Eigen::MatrixXd inverse;         // pseudo-inverse of the design, 4 x n
-};
-
-PatchFit FitPatch(const std::vector<Pair3d>& located, const std::vector<std::size_t>& index) {
-  PatchFit fit;
-  fit.index = index;
-  const auto count = static_cast<Eigen::Index>(index.size());
-  for (const std::size_t i : index)
-    fit.field.center_in_array_mm += located[i].reference_mm / static_cast<double>(count);
-  fit.design.resize(count, 4);
-  Eigen::MatrixX3d displacements(count, 3);
-  for (Eigen::Index k = 0; k < count; ++k) {
-    const Pair3d& point = located[index[static_cast<std::size_t>(k)]];
-    fit.design.row(k) << 1.0, (point.reference_mm - fit.field.center_in_array_mm).transpose();
-    displacements.row(k) = point.displacement_mm.transpose();
+std::vector<DisplacedPoint> LocateAll(const StateInput& input, StateStrain& state) {
+  const Eigen::Vector3d& axis = input.model.shape.along;
+  std::vector<DisplacedPoint> points(input.grid.points.size());
+  state.points.resize(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    std::string reason = input.tracked[i].reason;
+    LocatedPoint located;
+    if (reason.empty()) {
+      located = Locate(input.array, input.grid, input.grid.points[i], input.tracked[i]);
+      reason = ReasonAgainst(input, input.grid.points[i], located);
+    }
+    if (!reason.empty()) {
+      ++state.points_rejected[reason];
+      continue;
+    }
+    points[i] = located.point;
+    PointResult& result = state.points[i];
+    result.used = true;
+    result.displacement_mm = points[i].displacement_mm;
+    result.zncc = input.tracked[i].zncc;
+    result.sigma_um = 1000 * std::sqrt(axis.dot(points[i].covariance_mm2 * axis));
   }
-  fit.inverse = fit.design.completeOrthogonalDecomposition().pseudoInverse();
-  const Eigen::Matrix<double, 4, 3> solution = fit.inverse * displacements;
-  fit.field.displacement_mm = solution.row(0).transpose();
-  fit.field.gradient = solution.bottomRows<3>().transpose();
-  fit.field.points = static_cast<int>(count);
-  return fit;
+  return points;
 }
 
-double Deviation_mm(const PatchField& field, const Pair3d& point) {
-  return (point.displacement_mm - field.At(point.reference_mm)).norm();
+Error TooFewPoints(const std::string& group, std::size_t found, const StateStrain& state) {
+  std::string reasons;
+  for (const auto& [reason, count] : state.points_rejected)
+    reasons += (reasons.empty() ? " (lost: " : ", ") + std::to_string(count) + " " + reason;
+  if (!reasons.empty()) reasons += ")";
+  return EstimationFailed("group '" + group + "': only " + std::to_string(found) +
+                          " points could be followed, at least " + std::to_string(kMinPatchPoints) +
+                          " are needed" + reasons +
+                          "; the pipe moved out of the field or the pattern changed");
 }
 
-// Fits the patch of one group and takes out what does not move with it.
-Result<PatchFit> FitPatchRobustly(const PipeGrid& grid, int group,
-                                  const std::vector<Pair3d>& located, StateStrain& state) {
+// The points of one group that move together; takes out what does not.
+Result<std::vector<std::size_t>> PatchPoints(const PipeGrid& grid, int group,
+                                             const std::vector<DisplacedPoint>& points,
+                                             StateStrain& state) {
   std::vector<std::size_t> index;
   for (std::size_t i = 0; i < grid.points.size(); ++i)
     if (grid.points[i].group == group && state.points[i].used) index.push_back(i);
   for (;;) {  // every round takes points out or ends
     if (index.size() < kMinPatchPoints)
-      return EstimationFailed(
-          "group '" + grid.pairs[static_cast<std::size_t>(group)].group + "': only " +
-          std::to_string(index.size()) + " points could be followed, at least " +
-          std::to_string(kMinPatchPoints) +
-          " are needed; the pipe moved out of the field or the pattern changed");
-    PatchFit fit = FitPatch(located, index);
+      return TooFewPoints(grid.pairs[static_cast<std::size_t>(group)].group, index.size(), state);
+    const PatchField field = FitPatch(points, index).field;
     std::vector<double> deviations;
-    for (const std::size_t i : index) deviations.push_back(Deviation_mm(fit.field, located[i]));
+    for (const std::size_t i : index)
+      deviations.push_back((points[i].displacement_mm - field.At(points[i].reference_mm)).norm());
     std::vector<double> sorted = deviations;
-    std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
-    const double limit = std::max(kOutlierFloor_mm, kOutlierSigmas * sorted[sorted.size() / 2]);
+    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+    std::nth_element(sorted.begin(), middle, sorted.end());
+    const double limit = std::max(kOutlierFloor_mm, kOutlierSigmas * *middle);
     std::vector<std::size_t> kept;
     for (std::size_t k = 0; k < index.size(); ++k) {
       if (deviations[k] <= limit) {
@@ -100,82 +101,25 @@ Result<PatchFit> FitPatchRobustly(const PipeGrid& grid, int group,
       state.points[index[k]].used = false;
       ++state.points_rejected["does not move with its patch"];
     }
-    if (kept.size() == index.size()) return fit;
+    if (kept.size() == index.size()) return kept;
     index = std::move(kept);
   }
 }
 
-// The two ends of the base: the patch centres, brought to their common line along the pipe.
-std::array<Eigen::Vector3d, 2> BaseEnds(const Eigen::Vector3d& axis, const Eigen::Vector3d& a,
-                                        const Eigen::Vector3d& b) {
-  const Eigen::Vector3d middle = 0.5 * (a + b);
-  const Eigen::Vector3d lateral = middle - axis * axis.dot(middle);
-  return {lateral + axis * axis.dot(a), lateral + axis * axis.dot(b)};
-}
-
-double LongBaseStrain(const Eigen::Vector3d& axis, const PatchField& a, const PatchField& b) {
-  const auto ends = BaseEnds(axis, a.center_in_array_mm, b.center_in_array_mm);
-  const double before = (ends[1] - ends[0]).norm();
-  const double after = (ends[1] + b.At(ends[1]) - ends[0] - a.At(ends[0])).norm();
-  return after / before - 1.0;
-}
-
-double LongBaseStrainOf(const ArrayCalibration& array, const PipeGrid& grid,
-                        const std::vector<TrackedPoint>& tracked, const PatchFit& a,
-                        const PatchFit& b) {
-  std::vector<Pair3d> located(grid.points.size());
-  for (const PatchFit* fit : {&a, &b})
-    for (const std::size_t i : fit->index)
-      located[i] = Locate(array, grid, grid.points[i], tracked[i]);
-  return LongBaseStrain(grid.pipe.axis, FitPatch(located, a.index).field,
-                        FitPatch(located, b.index).field);
-}
-
-// Noise of the patch's displacement along `axis` at `position`, mm: the larger of what the matches
-// predict and what the scatter about the field shows.
-double NoiseAt_mm(const PatchFit& fit, const std::vector<Pair3d>& located,
-                  const Eigen::Vector3d& axis, const Eigen::Vector3d& position) {
-  Eigen::Vector4d basis;
-  basis << 1.0, position - fit.field.center_in_array_mm;
-  const Eigen::VectorXd weights = fit.inverse.transpose() * basis;
-  double predicted = 0, scatter = 0;
-  for (std::size_t k = 0; k < fit.index.size(); ++k) {
-    const Pair3d& point = located[fit.index[k]];
-    const double w = weights(static_cast<Eigen::Index>(k));
-    predicted += w * w * axis.dot(point.covariance_mm2 * axis);
-    scatter += std::pow(axis.dot(point.displacement_mm - fit.field.At(point.reference_mm)), 2);
-  }
-  const double freedom = std::max(1.0, static_cast<double>(fit.index.size()) - 4);
-  return std::sqrt(std::max(predicted, weights.squaredNorm() * scatter / freedom));
-}
-
-// Standard deviation of the patch's own strain along the axis.
-double LocalSigma(const PatchFit& fit, const std::vector<Pair3d>& located,
-                  const Eigen::Vector3d& axis) {
-  Eigen::Vector4d basis;
-  basis << 0.0, axis;
-  const Eigen::VectorXd weights = fit.inverse.transpose() * basis;
-  double variance = 0;
-  for (std::size_t k = 0; k < fit.index.size(); ++k) {
-    const double w = weights(static_cast<Eigen::Index>(k));
-    variance += w * w * axis.dot(located[fit.index[k]].covariance_mm2 * axis);
-  }
-  return std::sqrt(variance);
-}
-
-void FillRigidMotion(const std::vector<Pair3d>& located, const PipeGrid& grid, StateStrain& state) {
+void FillRigidMotion(const std::vector<DisplacedPoint>& points, const PipeGrid& grid,
+                     StateStrain& state) {
   Eigen::Vector3d center = Eigen::Vector3d::Zero(), moved = Eigen::Vector3d::Zero();
   const double count = state.points_used;
-  for (std::size_t i = 0; i < located.size(); ++i) {
+  for (std::size_t i = 0; i < points.size(); ++i) {
     if (!state.points[i].used) continue;
-    center += located[i].reference_mm / count;
-    moved += (located[i].reference_mm + located[i].displacement_mm) / count;
+    center += points[i].reference_mm / count;
+    moved += (points[i].reference_mm + points[i].displacement_mm) / count;
   }
   Eigen::Matrix3d correlation = Eigen::Matrix3d::Zero();
-  for (std::size_t i = 0; i < located.size(); ++i) {
+  for (std::size_t i = 0; i < points.size(); ++i) {
     if (!state.points[i].used) continue;
-    const Eigen::Vector3d before = located[i].reference_mm - center;
-    const Eigen::Vector3d after = located[i].reference_mm + located[i].displacement_mm - moved;
+    const Eigen::Vector3d before = points[i].reference_mm - center;
+    const Eigen::Vector3d after = points[i].reference_mm + points[i].displacement_mm - moved;
     correlation += after * before.transpose();
   }
   const Eigen::Matrix3d rotation = NearestRotation(correlation);
@@ -185,61 +129,66 @@ void FillRigidMotion(const std::vector<Pair3d>& located, const PipeGrid& grid, S
   state.translation_mm = moved + rotation * (middle - center) - middle;
 }
 
-// Axial and hoop strain around one point: the patch's own, plus the slopes of what its grid
-// neighbours do beyond the patch's field. The field holds rigid motion exactly, so a turn leaves no
-// strain.
-void FillPointStrain(const PipeGrid& grid, const std::vector<Pair3d>& located,
-                     const PatchField& field, std::size_t i, StateStrain& state) {
-  constexpr std::size_t kMinNeighbours = 6;
-  const PipePoint& point = grid.points[i];
-  const Eigen::Vector3d normal = grid.pipe.Normal(point.reference_in_array_mm);
-  const Eigen::Vector3d hoop = grid.pipe.axis.cross(normal);
-  std::vector<std::size_t> near;
-  for (std::size_t k = 0; k < grid.points.size(); ++k) {
-    const PipePoint& other = grid.points[k];
-    if (other.group == point.group && state.points[k].used &&
-        std::abs(other.column - point.column) <= kGaugeReach_steps &&
-        std::abs(other.row - point.row) <= kGaugeReach_steps)
-      near.push_back(k);
+void FillPatches(const StrainModel& model, const StrainResults& results, StateStrain& state) {
+  for (const PatchFit& patch : results.patches) {
+    const Eigen::Matrix3d axes =
+        model.shape.SurfaceAxes(model.shape.Straighten(patch.field.center_in_array_mm));
+    const Eigen::Matrix3d after = axes + patch.field.gradient * axes;
+    state.patch_tensors.push_back(TensorOf(after.col(0), after.col(1)));
+    state.local_hoop_strain.push_back(state.patch_tensors.back().hoop);
   }
-  PointResult& result = state.points[i];
-  result.axial_strain = result.hoop_strain = std::numeric_limits<double>::quiet_NaN();
-  if (near.size() < kMinNeighbours) return;
-  Eigen::MatrixX3d design(near.size(), 3), moved(near.size(), 3);
-  for (std::size_t k = 0; k < near.size(); ++k) {
-    const Eigen::Vector3d offset = located[near[k]].reference_mm - point.reference_in_array_mm;
-    const auto row = static_cast<Eigen::Index>(k);
-    design.row(row) << 1.0, grid.pipe.axis.dot(offset), hoop.dot(offset);
-    moved.row(row) =
-        (located[near[k]].displacement_mm - field.At(located[near[k]].reference_mm)).transpose();
-  }
-  const auto solver = design.colPivHouseholderQr();
-  if (solver.rank() < 3) return;
-  const Eigen::Matrix3d slopes = solver.solve(moved);
-  const Eigen::Vector3d& axis = grid.pipe.axis;
-  result.axial_strain = (axis + field.gradient * axis + slopes.row(1).transpose()).norm() - 1;
-  result.hoop_strain = (hoop + field.gradient * hoop + slopes.row(2).transpose()).norm() - 1;
+  const Eigen::Vector3d middle = 0.5 * (results.patches[0].field.center_in_array_mm +
+                                        results.patches[1].field.center_in_array_mm);
+  state.fibre_mm = model.fibre_mm.value_or(model.shape.Straighten(middle).tail<2>());
 }
 
-void FillBudget(const ArrayCalibration& array, const PipeGrid& grid,
-                const std::vector<TrackedPoint>& tracked, const std::vector<Pair3d>& located,
-                const std::array<PatchFit, 2>& fits, StateStrain& state) {
-  const Eigen::Vector3d& axis = grid.pipe.axis;
-  const auto ends =
-      BaseEnds(axis, fits[0].field.center_in_array_mm, fits[1].field.center_in_array_mm);
-  const double base_mm = (ends[1] - ends[0]).norm();
-  const double noise_mm = std::hypot(NoiseAt_mm(fits[0], located, axis, ends[0]),
-                                     NoiseAt_mm(fits[1], located, axis, ends[1]));
-  const double bias_mm =
-      kCorrelationBias_px / array.Magnification_px_per_mm() / std::sqrt(3.0) * std::sqrt(2.0);
-  const CalibrationParts calibration = CalibrationPart(array, [&](const ArrayCalibration& moved) {
-    return LongBaseStrainOf(moved, grid, tracked, fits[0], fits[1]);
-  });
-  state.budget = {{"image noise", noise_mm / base_mm},
-                  {"correlation bias", bias_mm / base_mm},
-                  {"calibration", calibration.noise},
-                  {"target certificate", calibration.certificate}};
-  state.standard_uncertainty = Combine(state.budget);
+void FillValues(const std::vector<StrainValue>& values, std::size_t groups, StateStrain& state) {
+  using Entry = StrainResults::Entry;
+  state.axial_strain = values[Entry::kLongBase].value;
+  state.standard_uncertainty = values[Entry::kLongBase].standard_uncertainty;
+  state.budget = values[Entry::kLongBase].budget;
+  state.membrane = values[Entry::kMembrane];
+  state.bending_0 = values[Entry::kBending0];
+  state.bending_90 = values[Entry::kBending90];
+  state.torsion = values[Entry::kTorsion];
+  state.across = values[Entry::kAcross];
+  for (std::size_t g = 0; g < groups; ++g) {
+    state.local_axial_strain.push_back(values[Entry::kFirstLocal + g].value);
+    state.local_uncertainty.push_back(values[Entry::kFirstLocal + g].standard_uncertainty);
+    state.local_sigma = std::max(
+        state.local_sigma, values[Entry::kFirstLocal + g].budget.front().standard_uncertainty);
+  }
+}
+
+void FillMechanical(const StrainModel& model, std::optional<double> change_k, StateStrain& state) {
+  if (!change_k || model.thermal_expansion_per_k == 0) return;
+  MechanicalStrain mechanical;
+  mechanical.temperature_change_k = *change_k;
+  mechanical.thermal_strain = model.thermal_expansion_per_k * *change_k;
+  mechanical.sigma_thermal_strain =
+      std::hypot(model.thermal_expansion_per_k * std::sqrt(2.0) * model.sigma_temperature_k,
+                 *change_k * model.sigma_thermal_expansion_per_k);
+  mechanical.axial_strain = state.axial_strain - mechanical.thermal_strain;
+  mechanical.standard_uncertainty =
+      std::hypot(state.standard_uncertainty, mechanical.sigma_thermal_strain);
+  mechanical.membrane_strain = state.membrane.value - mechanical.thermal_strain;
+  mechanical.membrane_uncertainty =
+      std::hypot(state.membrane.standard_uncertainty, mechanical.sigma_thermal_strain);
+  state.mechanical = mechanical;
+}
+
+// After FillMechanical. The gauges' values are the last ones.
+void FillGauges(const StrainModel& model, const std::vector<StrainValue>& values,
+                StateStrain& state) {
+  for (std::size_t i = 0; i < model.gauges.size(); ++i) {
+    StrainValue value = values[values.size() - model.gauges.size() + i];
+    const bool compensated = state.mechanical && !model.gauges[i].reads_thermal_strain;
+    if (compensated) value.value -= state.mechanical->thermal_strain;
+    value.budget.push_back(
+        {"temperature", compensated ? state.mechanical->sigma_thermal_strain : 0.0});
+    value.standard_uncertainty = Combine(value.budget);
+    state.gauges.push_back({model.gauges[i].column, std::move(value)});
+  }
 }
 
 }  // namespace
@@ -257,50 +206,38 @@ double BaseLength_mm(const PipeGrid& grid) {
 }
 
 Result<StateStrain> AnalyseState(const ArrayCalibration& array, const PipeGrid& grid,
-                                 const std::vector<TrackedPoint>& tracked) {
+                                 const std::vector<TrackedPoint>& tracked, const StrainModel& model,
+                                 std::optional<double> temperature_change_k) {
+  TELESTRAIN_CHECK(grid.pairs.size() >= 2, "the long base needs two groups");
+  const StateInput input{array, grid, tracked, model};
   StateStrain state;
-  state.points.resize(grid.points.size());
-  std::vector<Pair3d> located(grid.points.size());
-  for (std::size_t i = 0; i < grid.points.size(); ++i) {
-    if (!tracked[i].reason.empty()) {
-      ++state.points_rejected[tracked[i].reason];
-      continue;
-    }
-    located[i] = Locate(array, grid, grid.points[i], tracked[i]);
-    if (located[i].epipolar_change_px > kMaxEpipolarChange_px) {
-      ++state.points_rejected["left the epipolar line"];
-      continue;
-    }
-    state.points[i].used = true;
-    state.points[i].displacement_mm = located[i].displacement_mm;
-    state.points[i].zncc = tracked[i].zncc;
-    state.points[i].sigma_um =
-        1000 * std::sqrt(grid.pipe.axis.dot(located[i].covariance_mm2 * grid.pipe.axis));
-  }
-  std::array<PatchFit, 2> fits;
-  std::vector<PatchField> fields;
+  const std::vector<DisplacedPoint> points = LocateAll(input, state);
+  Groups index_of_group;
   for (std::size_t group = 0; group < grid.pairs.size(); ++group) {
-    TELESTRAIN_ASSIGN_OR_RETURN(PatchFit fit,
-                                FitPatchRobustly(grid, static_cast<int>(group), located, state));
-    const Eigen::Vector3d hoop =
-        grid.pipe.axis.cross(grid.pipe.Normal(fit.field.center_in_array_mm));
-    fields.push_back(fit.field);
-    state.local_axial_strain.push_back(fit.field.FibreStrain(grid.pipe.axis));
-    state.local_hoop_strain.push_back(fit.field.FibreStrain(hoop));
-    state.local_sigma = std::max(state.local_sigma, LocalSigma(fit, located, grid.pipe.axis));
-    if (group < 2) fits[group] = std::move(fit);
+    TELESTRAIN_ASSIGN_OR_RETURN(index_of_group.emplace_back(),
+                                PatchPoints(grid, static_cast<int>(group), points, state));
+    state.points_used += static_cast<int>(index_of_group.back().size());
   }
-  for (const PointResult& point : state.points) state.points_used += point.used ? 1 : 0;
-  for (std::size_t i = 0; i < state.points.size(); ++i)
-    if (state.points[i].used)
-      FillPointStrain(grid, located, fields[static_cast<std::size_t>(grid.points[i].group)], i,
-                      state);
-  FillRigidMotion(located, grid, state);
-  if (grid.pairs.size() >= 2) {
-    state.axial_strain = LongBaseStrain(grid.pipe.axis, fits[0].field, fits[1].field);
-    FillBudget(array, grid, tracked, located, fits, state);
-  }
+  const StrainResults results = EvaluateStrain(model, points, index_of_group);
+  if (!results.beam.ok)
+    return EstimationFailed("the " + std::to_string(state.points_used) +
+                            " points that could be followed do not determine how the pipe moved "
+                            "and bent; they must not lie in a line");
+  const std::vector<StrainValue> values = StrainWithBudgets(input, points, index_of_group, results);
+  FillValues(values, index_of_group.size(), state);
+  FillPatches(model, results, state);
+  state.beam_chi2_per_freedom = results.beam.chi2_per_freedom;
+  state.beam_misfit_rms_um = 1000 * results.beam.misfit_rms_mm;
+  FillMechanical(model, temperature_change_k, state);
+  FillGauges(model, values, state);
+  FillPointStrains(model.shape, grid, points, results.patches, state.points);
+  FillRigidMotion(points, grid, state);
   return state;
+}
+
+Result<StateStrain> AnalyseState(const ArrayCalibration& array, const PipeGrid& grid,
+                                 const std::vector<TrackedPoint>& tracked) {
+  return AnalyseState(array, grid, tracked, MakeStrainModel(grid));
 }
 
 }  // namespace telestrain

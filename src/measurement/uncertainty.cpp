@@ -6,14 +6,6 @@
 #include "base/check.h"
 
 namespace telestrain {
-namespace {
-
-double Spread(const Eigen::VectorXd& gradient, const Eigen::MatrixXd& covariance) {
-  return std::sqrt(std::max(0.0, gradient.dot(covariance * gradient)));
-}
-
-}  // namespace
-
 double Combine(const std::vector<BudgetLine>& budget) {
   double sum = 0;
   for (const BudgetLine& line : budget)
@@ -21,25 +13,39 @@ double Combine(const std::vector<BudgetLine>& budget) {
   return std::sqrt(sum);
 }
 
-CalibrationParts CalibrationPart(const ArrayCalibration& array,
-                                 const std::function<double(const ArrayCalibration&)>& result) {
+CalibrationCovariances CalibrationPartsOf(
+    const ArrayCalibration& array,
+    const std::function<Eigen::VectorXd(const ArrayCalibration&)>& results) {
   const Eigen::Index size = array.ParameterCount();
   TELESTRAIN_CHECK(array.covariance.rows() == size, "the calibration has no covariance");
   TELESTRAIN_CHECK(array.covariance_of_noise.rows() == size,
                    "the calibration has no covariance of its noise");
-  Eigen::VectorXd gradient(size);
+  Eigen::MatrixXd gradient;
   for (Eigen::Index i = 0; i < size; ++i) {
     const double step = std::sqrt(std::max(0.0, array.covariance(i, i)));
-    if (step == 0) {
-      gradient(i) = 0;
-      continue;
-    }
+    if (step == 0) continue;
     Eigen::VectorXd delta = Eigen::VectorXd::Zero(size);
     delta(i) = step;
-    gradient(i) = (result(array.Perturbed(delta)) - result(array.Perturbed(-delta))) / (2 * step);
+    const Eigen::VectorXd slope =
+        (results(array.Perturbed(delta)) - results(array.Perturbed(-delta))) / (2 * step);
+    if (gradient.size() == 0) gradient = Eigen::MatrixXd::Zero(slope.size(), size);
+    gradient.col(i) = slope;
   }
-  return {Spread(gradient, array.covariance_of_noise),
-          Spread(gradient, array.covariance - array.covariance_of_noise)};
+  if (gradient.size() == 0) gradient = Eigen::MatrixXd::Zero(results(array).size(), size);
+  return {gradient * array.covariance_of_noise * gradient.transpose(),
+          gradient * (array.covariance - array.covariance_of_noise) * gradient.transpose()};
+}
+
+CalibrationParts CalibrationPart(const ArrayCalibration& array,
+                                 const std::function<double(const ArrayCalibration&)>& result) {
+  const CalibrationCovariances parts = CalibrationPartsOf(array, [&](const auto& perturbed) {
+    return Eigen::VectorXd(Eigen::VectorXd::Constant(1, result(perturbed)));
+  });
+  return {Sigma(parts.noise, 0), Sigma(parts.certificate, 0)};
+}
+
+double Sigma(const Eigen::MatrixXd& covariance, Eigen::Index i) {
+  return std::sqrt(std::max(0.0, covariance(i, i)));
 }
 
 }  // namespace telestrain

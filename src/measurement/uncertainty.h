@@ -15,6 +15,9 @@ struct BudgetLine {
   double standard_uncertainty = 0;
 };
 
+// Standard deviation of entry i; 0 where rounding made its variance negative.
+double Sigma(const Eigen::MatrixXd& covariance, Eigen::Index i);
+
 // Root sum of squares of the lines.
 double Combine(const std::vector<BudgetLine>& budget);
 
@@ -29,5 +32,13 @@ struct CalibrationParts {
 // covariance is missing.
 CalibrationParts CalibrationPart(const ArrayCalibration& array,
                                  const std::function<double(const ArrayCalibration&)>& result);
+
+// The same for several results at once, with their covariances between each other.
+struct CalibrationCovariances {
+  Eigen::MatrixXd noise, certificate;  // in the order of the results
+};
+CalibrationCovariances CalibrationPartsOf(
+    const ArrayCalibration& array,
+    const std::function<Eigen::VectorXd(const ArrayCalibration&)>& results);
 
 }  // namespace telestrain
