@@ -118,8 +118,8 @@ BeamState FitBeam(const PipeShape& shape, double poisson, const std::vector<Disp
     const NormalEquations normal = Accumulate(
         {shape, poisson, state.value, ExpRotation(state.value.head<3>())}, points, index);
     const BeamState::Vector scale = normal.matrix.diagonal().cwiseSqrt().cwiseInverse();
-    const Eigen::LDLT<BeamState::Matrix> solver(scale.asDiagonal() * normal.matrix *
-                                                scale.asDiagonal());
+    const Eigen::LDLT<Eigen::MatrixXd> solver(scale.asDiagonal() * normal.matrix *
+                                              scale.asDiagonal());
     if (!solver.isPositive() || !(solver.rcond() > 1e-12)) return state;
     const BeamState::Vector step =
         scale.cwiseProduct(solver.solve(scale.cwiseProduct(normal.right)));

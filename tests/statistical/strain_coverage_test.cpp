@@ -122,7 +122,7 @@ class Experiment {
         const double angle = (row - 4) * 0.12;
         const Eigen::Vector3d wanted = nominal.InArray(
             nominal.Material((group == 0 ? -13.85 : 13.85) + (column - 5.5) * 0.4, angle));
-        PipePoint point{};
+        PipePoint point;
         point.group = group;
         point.row = row;
         point.column = column;
@@ -134,6 +134,7 @@ class Experiment {
         point.second_pixel =
             truth_.Project(first + 1, before) +
             Eigen::Vector2d(random.Normal(kStereoNoise_px), random.Normal(kStereoNoise_px));
+        point.second_center_px = point.second_pixel.array().round().cast<int>();
         point.reference_in_array_mm =
             Triangulate(estimate,
                         {{first, point.first_center_px.cast<double>(), Eigen::Matrix2d::Zero()},
