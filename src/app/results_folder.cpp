@@ -6,6 +6,7 @@
 
 #include "base/files.h"
 #include "base/json_file.h"
+#include "measurement/ruler_acceptance.h"
 #include "session/session_record.h"
 #include "target/image_file.h"
 
@@ -90,6 +91,13 @@ Result<Json> FilesJson(const Session& session) {
   return files;
 }
 
+std::map<std::string, std::string> HashesIn(const Json& files) {
+  std::map<std::string, std::string> hashes;
+  for (const Json& file : files)
+    hashes[file.at("path").get<std::string>()] = file.at("sha256").get<std::string>();
+  return hashes;
+}
+
 Json ProgramJson() {
   Json libraries;
   std::string list = TELESTRAIN_LIBRARIES;  // "name version|name version|…" from CMake
@@ -119,6 +127,7 @@ Status RemoveOutputsFrom(const fs::path& results, Step step) {
 
 Result<std::string> InputsText(const Session& session, const fs::path& corners) {
   TELESTRAIN_ASSIGN_OR_RETURN(const Json files, FilesJson(session));
+  TELESTRAIN_RETURN_IF_ERROR(RequireUnseenRuler(session, HashesIn(files)));
   Json corners_json = nullptr;
   if (!corners.empty()) {
     TELESTRAIN_ASSIGN_OR_RETURN(const std::string bytes, ReadFile(corners));
@@ -153,8 +162,7 @@ Status RequireSameInputs(const Session& session, const fs::path& results) {
       const Json inputs, ReadJson(results / "inputs.json", kInputsSchema, "telestrain detect"));
   std::map<std::string, std::string> recorded;
   try {
-    for (const Json& file : inputs.at("files"))
-      recorded[file.at("path").get<std::string>()] = file.at("sha256").get<std::string>();
+    recorded = HashesIn(inputs.at("files"));
   } catch (const nlohmann::json::exception& e) {
     return BadInput((results / "inputs.json").string() + ": " + e.what() +
                     "; run 'telestrain detect' again");
@@ -168,7 +176,7 @@ Status RequireSameInputs(const Session& session, const fs::path& results) {
                       (session.folder / name).string() +
                       "; run 'telestrain detect' again or use another --out folder");
   }
-  return {};
+  return RequireUnseenRuler(session, recorded);
 }
 
 Status RequireConsistent(const fs::path& results, Step before) {

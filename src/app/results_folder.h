@@ -18,7 +18,8 @@ Status RemoveOutputsFrom(const std::filesystem::path& results, Step step);
 
 // The text of inputs.json: the session's facts, the program and the SHA-256 of every input file,
 // among them `corners` when the target's corners come from there. Fails (kBadInput) when an image
-// is unreadable, cut short or of another size than the sensor's.
+// is unreadable, cut short or of another size than the sensor's, and when a ruler image has the
+// bytes of a calibration image.
 Result<std::string> InputsText(const Session& session, const std::filesystem::path& corners);
 
 // Whether the results were made from given corners instead of calibration images.

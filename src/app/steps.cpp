@@ -8,7 +8,7 @@
 #include "base/numbers.h"
 #include "calibration/calibration_file.h"
 #include "measurement/pipe_file.h"
-#include "measurement/ruler.h"
+#include "measurement/ruler_acceptance.h"
 #include "report/acceptance_report.h"
 #include "target/corner_import.h"
 #include "viz/render.h"
@@ -116,8 +116,10 @@ Status VerifyStep(const Session& session, const fs::path& results, Console& cons
   TELESTRAIN_ASSIGN_OR_RETURN(const auto made_from,
                               HashesOf(results, {"detection.json", "calibration.json"}));
   TELESTRAIN_RETURN_IF_ERROR(WriteFileAtomically(results / "ruler.csv", RulerCsv(lengths)));
-  TELESTRAIN_RETURN_IF_ERROR(
-      WriteJson(results / "ruler.json", RulerJson(session, lengths, made_from)));
+  const RulerAcceptance acceptance = AcceptRuler(session, array, lengths);
+  auto json = RulerJson(session, lengths, made_from);
+  json["acceptance"] = RulerAcceptanceJson(acceptance, lengths, session.acceptance.coverage_factor);
+  TELESTRAIN_RETURN_IF_ERROR(WriteJson(results / "ruler.json", json));
   const RulerSummary summary = Summarise(lengths);
   if (summary.count == 0)
     console.Say("verify     none of " + CountText(lengths.size(), "ruler image") +

@@ -18,6 +18,22 @@ enum class Verdict { kPass, kDoubt, kFail, kUndecided };
 // not finite or negative, are kUndecided.
 Verdict Decide(double value, double expanded_uncertainty, double limit, DecisionRule rule);
 
+// A verdict with its reason, for a reader.
+struct Decision {
+  Verdict verdict = Verdict::kUndecided;
+  // Room between the value with its guard band and the limit; negative where it is exceeded. 0 when
+  // undecided.
+  double margin = 0;
+  // "passes with 3.2 µm to spare beyond U", "in doubt: 0.40 µm over the guard band; repeat with U
+  // of 1.1 µm or less to pass", "fails: 1.2 µm outside beyond U", "not decided: …".
+  std::string words;
+};
+
+// Decide() and what it means; `unit` is only printed. Figures have two significant digits of the
+// margin, or of U where that is larger.
+Decision DecideInWords(double value, double expanded_uncertainty, double limit, DecisionRule rule,
+                       const std::string& unit);
+
 // How strongly a verdict speaks against acceptance: fail 3, doubt 2, undecided 1, pass 0. An
 // undecided entry outranks a passed one, so that the worst of a list shows what is not known.
 int Severity(Verdict verdict);

@@ -52,13 +52,25 @@ Json StateJson(const MeasuredState& state, std::size_t row) {
 
 Json ComparisonJson(const std::optional<GaugeComparison>& comparison) {
   if (!comparison) return nullptr;
-  return {{"count", comparison->count},
-          {"rms_error_microstrain", comparison->rms_error_microstrain},
-          {"mean_error_microstrain", comparison->mean_error_microstrain},
-          {"max_abs_error_microstrain", comparison->max_abs_error_microstrain},
-          {"standard_uncertainty_microstrain", comparison->standard_uncertainty_microstrain},
-          {"slope", OptionalNumber(comparison->slope)},
-          {"intercept_microstrain", OptionalNumber(comparison->intercept_microstrain)}};
+  return {
+      {"count", comparison->count},
+      {"rms_error_microstrain", comparison->rms_error_microstrain},
+      {"mean_error_microstrain", comparison->mean_error_microstrain},
+      {"max_abs_error_microstrain", comparison->max_abs_error_microstrain},
+      {"standard_uncertainty_microstrain", comparison->standard_uncertainty_microstrain},
+      {"error_uncertainty_microstrain", OptionalNumber(comparison->error_uncertainty_microstrain)},
+      {"slope", OptionalNumber(comparison->slope)},
+      {"intercept_microstrain", OptionalNumber(comparison->intercept_microstrain)}};
+}
+
+Json GaugeOutliersJson(const std::vector<GaugeOutlier>& outliers) {
+  Json json = Json::array();
+  for (const GaugeOutlier& outlier : outliers)
+    json.push_back({{"column", outlier.column},
+                    {"image", outlier.image},
+                    {"deviation_microstrain", outlier.deviation_microstrain},
+                    {"standard_uncertainty_microstrain", outlier.sigma_microstrain}});
+  return json;
 }
 
 // Root mean square of every budget line over the states after the reference.
@@ -182,6 +194,9 @@ nlohmann::ordered_json StrainJson(const PipeMeasurement& measurement,
             {"virtual_strain_gauge_mm", 2 * kGaugeReach_steps * step_mm + subset_mm}}},
           {"states", states},
           {"comparison", ComparisonJson(measurement.comparison)},
+          {"gauge_outliers", GaugeOutliersJson(measurement.gauge_outliers)},
+          {"sequence", SequenceJson(measurement.sequence, measurement.sequence_states,
+                                    measurement.coverage_factor)},
           {"budget", BudgetJson(measurement.states)}};
 }
 

@@ -1,8 +1,6 @@
 #include "measurement/pipe_measurement.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include "target/image_file.h"
 
@@ -14,29 +12,19 @@ Result<GrayImage> ReadPipeImage(const Session& session, std::size_t row) {
                        session.sensor.height_px);
 }
 
-std::optional<double> MeanOfGauges(const PipeState& state) {
-  double sum = 0;
-  int count = 0;
-  for (const auto& gauge : state.gauges_microstrain) {
-    if (!gauge) continue;
-    sum += *gauge;
-    ++count;
-  }
-  if (count == 0) return {};
-  return sum / count;
-}
-
-// Mean change since the reference of the gauges that read in both states.
-std::optional<double> ChangeOfGauges(const PipeState& reference, const PipeState& state) {
-  double sum = 0;
-  int count = 0;
-  for (std::size_t i = 0; i < state.gauges_microstrain.size(); ++i) {
-    if (!state.gauges_microstrain[i] || !reference.gauges_microstrain[i]) continue;
-    sum += *state.gauges_microstrain[i] - *reference.gauges_microstrain[i];
-    ++count;
-  }
-  if (count == 0) return {};
-  return sum / count;
+SequenceState StateOf(const MeasuredState& state, const PipeState& reference,
+                      const std::vector<std::optional<double>>& gauge_sigmas) {
+  constexpr double kMicro = 1e6;
+  return {state.table.image,
+          state.table.cycle,
+          state.table.step,
+          state.table.time_s,
+          kMicro * state.strain.axial_strain,
+          kMicro * state.strain.standard_uncertainty,
+          state.gauge_change_microstrain,
+          SigmaOfGauges(reference, state.table, gauge_sigmas),
+          state.strain.translation_mm,
+          state.strain.rotation_rad};
 }
 
 std::optional<double> TemperatureChange_k(const PipeState& reference, const PipeState& state) {
@@ -44,39 +32,19 @@ std::optional<double> TemperatureChange_k(const PipeState& reference, const Pipe
   return *state.temperature_c - *reference.temperature_c;
 }
 
-std::optional<GaugeComparison> Compare(const std::vector<MeasuredState>& states) {
-  std::vector<std::pair<double, double>> pairs;  // gauge, camera
-  double variances = 0;
-  for (std::size_t i = 1; i < states.size(); ++i) {
-    if (!states[i].gauge_change_microstrain) continue;
-    pairs.emplace_back(*states[i].gauge_change_microstrain, 1e6 * states[i].strain.axial_strain);
-    variances += std::pow(1e6 * states[i].strain.standard_uncertainty, 2);
-  }
-  if (pairs.empty()) return {};
-  GaugeComparison comparison;
-  comparison.standard_uncertainty_microstrain =
-      std::sqrt(variances / static_cast<double>(pairs.size()));
-  comparison.count = static_cast<int>(pairs.size());
-  const double count = static_cast<double>(pairs.size());
-  double gauge_mean = 0, camera_mean = 0, squares = 0;
-  for (const auto& [gauge, camera] : pairs) {
-    const double error = camera - gauge;
-    squares += error * error;
-    comparison.mean_error_microstrain += error / count;
-    comparison.max_abs_error_microstrain =
-        std::max(comparison.max_abs_error_microstrain, std::abs(error));
-    gauge_mean += gauge / count;
-    camera_mean += camera / count;
-  }
-  comparison.rms_error_microstrain = std::sqrt(squares / count);
-  double xx = 0, xy = 0;
-  for (const auto& [gauge, camera] : pairs) {
-    xx += (gauge - gauge_mean) * (gauge - gauge_mean);
-    xy += (gauge - gauge_mean) * (camera - camera_mean);
-  }
-  comparison.slope = xx > 0 ? xy / xx : std::numeric_limits<double>::quiet_NaN();
-  comparison.intercept_microstrain = camera_mean - comparison.slope * gauge_mean;
-  return comparison;
+// What all states together say, once they are measured.
+void AddSequence(const Session& session, PipeMeasurement& measurement) {
+  constexpr double kStill_px = 0.1;
+  const auto gauge_sigmas = GaugeSigmas_microstrain(session);
+  for (const MeasuredState& state : measurement.states)
+    measurement.sequence_states.push_back(StateOf(state, session.pipe_states[0], gauge_sigmas));
+  measurement.comparison = CompareWithGauges(measurement.sequence_states);
+  measurement.gauge_outliers = FindGaugeOutliers(session);
+  measurement.coverage_factor = session.acceptance.coverage_factor;
+  measurement.sequence =
+      AnalyseSequence(measurement.sequence_states,
+                      {BaseLength_mm(measurement.grid), session.acceptance.coverage_factor,
+                       kStill_px / measurement.magnification_px_per_mm});
 }
 
 }  // namespace
@@ -118,7 +86,7 @@ Result<PipeMeasurement> MeasurePipe(const Session& session, const ArrayCalibrati
     measurement.states.push_back(std::move(state));
     console.Progress("measuring", static_cast<int>(row) + 1, total);
   }
-  measurement.comparison = Compare(measurement.states);
+  AddSequence(session, measurement);
   return measurement;
 }
 

@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "base/console.h"
+#include "measurement/gauge_comparison.h"
+#include "measurement/sequence_statistics.h"
 #include "measurement/strain.h"
 
 namespace telestrain {
@@ -21,17 +23,6 @@ struct MeasuredState {
       gauge_change_microstrain;  // mean change since the reference of those that read in both
 };
 
-// Camera against gauges over the states after the reference.
-struct GaugeComparison {
-  int count = 0;
-  double rms_error_microstrain = 0;
-  double mean_error_microstrain = 0;
-  double max_abs_error_microstrain = 0;
-  double standard_uncertainty_microstrain = 0;  // of one camera value (RMS), without the gauges'
-  double slope = 0;  // of camera over gauge, least squares; NaN when the gauges never change
-  double intercept_microstrain = 0;
-};
-
 struct PipeMeasurement {
   PipeGrid grid;
   PipeGeometry geometry;
@@ -39,6 +30,10 @@ struct PipeMeasurement {
   CorrelationOptions options;
   std::vector<MeasuredState> states;  // one per row of pipe.csv, the reference first
   std::optional<GaugeComparison> comparison;
+  std::vector<GaugeOutlier> gauge_outliers;
+  std::vector<SequenceState> sequence_states;  // what `sequence` was made from
+  SequenceStatistics sequence;
+  double coverage_factor = 2;  // of the session, for its expanded uncertainties
 };
 
 // A subset of a sixteenth of the shortest side of a view, odd.

@@ -76,10 +76,10 @@ std::vector<BudgetLine> Budget_um(const Session& session, const ArrayCalibration
       std::sqrt(direction.dot((end_a.covariance_mm2 + end_b.covariance_mm2) * direction));
   const CalibrationParts calibration =
       CalibrationPart(array, [&](const ArrayCalibration& moved) { return Length_mm(moved, a, b); });
-  return {{"cross positions", 1000 * corner_part},
-          {"calibration", 1000 * calibration.noise},
-          {"target certificate", 1000 * calibration.certificate},
-          {"ruler certificate", session.ruler.sigma_length_um}};
+  return {{kCrossPositions, 1000 * corner_part},
+          {kCalibrationNoise, 1000 * calibration.noise},
+          {kTargetCertificate, 1000 * calibration.certificate},
+          {kRulerCertificate, session.ruler.sigma_length_um}};
 }
 
 RulerLength MeasureOne(const Session& session, const ArrayCalibration& array,

@@ -14,6 +14,12 @@ namespace telestrain {
 
 inline constexpr const char* kRulerSchema = "telestrain.ruler/1";
 
+// Sources of the budget of a length.
+inline constexpr const char* kCrossPositions = "cross positions";
+inline constexpr const char* kCalibrationNoise = "calibration";
+inline constexpr const char* kTargetCertificate = "target certificate";
+inline constexpr const char* kRulerCertificate = "ruler certificate";
+
 // The ruler in one image: the distance between the crosses of the first two groups.
 struct RulerLength {
   std::string image;

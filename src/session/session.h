@@ -92,6 +92,8 @@ struct PipeSpec {
   double sigma_thermal_expansion_per_k = 0;  // standard uncertainties
   double sigma_temperature_k = 0;            // of one reading of temperature_c
   std::vector<PipeGauge> gauges = {};        // those whose place is known
+  // Standard uncertainty of one reading of one strain gauge.
+  std::optional<double> sigma_gauge_microstrain;
 };
 
 enum class DecisionRule { kGuarded, kSimple };

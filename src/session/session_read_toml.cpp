@@ -144,7 +144,8 @@ FieldReader PipeTable(PipeSpec& pipe) {
                 Number(pipe.sigma_thermal_expansion_per_k, From(0, 1e-2))),
        Optional("sigma_temperature_k", Number(pipe.sigma_temperature_k, From(0, 1000))),
        Optional("gauge", Tables("[[pipe.gauge]]",
-                                [&pipe](const auto& node) { return ReadGauge(node, pipe); }))});
+                                [&pipe](const auto& node) { return ReadGauge(node, pipe); })),
+       Optional("sigma_gauge_microstrain", Number(pipe.sigma_gauge_microstrain, Above(0, 1e4)))});
 }
 
 FieldReader AcceptanceTable(AcceptanceSpec& acceptance) {

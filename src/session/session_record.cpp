@@ -101,6 +101,24 @@ AcceptanceSpec AcceptanceOf(const Json& json) {
   return acceptance;
 }
 
+Json PipeJson(const PipeSpec& pipe) {
+  Json json{{"outer_diameter_mm", pipe.outer_diameter_mm},
+            {"poisson_ratio", pipe.poisson_ratio},
+            {"material", pipe.material}};
+  if (pipe.sigma_gauge_microstrain) json["sigma_gauge_microstrain"] = *pipe.sigma_gauge_microstrain;
+  return json;
+}
+
+PipeSpec PipeOf(const Json& json) {
+  PipeSpec pipe{json.at("outer_diameter_mm").get<double>(),
+                json.at("poisson_ratio").get<double>(),
+                json.at("material").get<std::string>(),
+                {}};
+  if (json.contains("sigma_gauge_microstrain"))
+    pipe.sigma_gauge_microstrain = json.at("sigma_gauge_microstrain").get<double>();
+  return pipe;
+}
+
 Json CalibrationImagesJson(const Session& session) {
   Json images = Json::array();
   for (const CalibrationImage& image : session.calibration_images)
@@ -128,10 +146,7 @@ Json SessionRecord(const Session& session) {
           {"ruler",
            {{"length_mm", session.ruler.length_mm},
             {"sigma_length_um", session.ruler.sigma_length_um}}},
-          {"pipe",
-           {{"outer_diameter_mm", session.pipe.outer_diameter_mm},
-            {"poisson_ratio", session.pipe.poisson_ratio},
-            {"material", session.pipe.material}}},
+          {"pipe", PipeJson(session.pipe)},
           {"acceptance", AcceptanceJson(session.acceptance)},
           {"calibration_images", CalibrationImagesJson(session)},
           {"ruler_images", session.ruler_images},
@@ -156,9 +171,7 @@ Session SessionOfRecord(const Json& record) {
   session.target = TargetOf(record.at("target"));
   const Json& ruler = record.at("ruler");
   session.ruler = {ruler.at("length_mm").get<double>(), ruler.at("sigma_length_um").get<double>()};
-  const Json& pipe = record.at("pipe");
-  session.pipe = {pipe.at("outer_diameter_mm").get<double>(),
-                  pipe.at("poisson_ratio").get<double>(), pipe.at("material").get<std::string>()};
+  session.pipe = PipeOf(record.at("pipe"));
   session.acceptance = AcceptanceOf(record.at("acceptance"));
   for (const Json& image : record.at("calibration_images"))
     session.calibration_images.push_back({image.at("image").get<std::string>(),

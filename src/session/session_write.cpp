@@ -169,6 +169,8 @@ void WritePipe(const PipeSpec& pipe, TomlWriter& toml) {
   toml.Number("thermal_expansion_per_k", pipe.thermal_expansion_per_k, 0);
   toml.Number("sigma_thermal_expansion_per_k", pipe.sigma_thermal_expansion_per_k, 0);
   toml.Number("sigma_temperature_k", pipe.sigma_temperature_k, 0);
+  if (pipe.sigma_gauge_microstrain)
+    toml.Number("sigma_gauge_microstrain", *pipe.sigma_gauge_microstrain);
   for (const PipeGauge& gauge : pipe.gauges) {
     toml.Head("[[pipe.gauge]]");
     toml.Text("column", gauge.column);

@@ -48,6 +48,33 @@ TEST(Decision, NeverPassesWhatIsNotANumber) {
   EXPECT_EQ(Decide(0, -1, 1, DecisionRule::kGuarded), Verdict::kUndecided);
 }
 
+TEST(Decision, SaysTheMarginInWords) {
+  struct Worded {
+    double value, expanded_uncertainty, limit;
+    DecisionRule rule;
+    double margin;
+    const char* words;
+  };
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  using enum DecisionRule;
+  for (const Worded& c :
+       {Worded{-5, 1.8, 10, kGuarded, 3.2, "passes with 3.2 µm to spare beyond U"},
+        Worded{8.6, 1.8, 10, kGuarded, -0.4,
+               "in doubt: 0.4 µm over the guard band; repeat with U of 1.4 µm or less to pass"},
+        Worded{10.5, 1.8, 10, kGuarded, -2.3,
+               "in doubt: 2.3 µm over the guard band; repeat with U of 0.5 µm or less to fail"},
+        Worded{-13, 1.8, 10, kGuarded, -1.2, "fails: 1.2 µm outside beyond U"},
+        Worded{9, 5, 10, kSimple, 1, "passes with 1.0 µm to spare"},
+        Worded{12, 5, 10, kSimple, -2, "fails: 2.0 µm outside"},
+        Worded{0.0421, 0, 0.1, kGuarded, 0.0579, "passes with 0.058 µm to spare"},
+        Worded{5, nan, 10, kGuarded, 0, "not decided: value, uncertainty or limit is missing"}}) {
+    const Decision decision = DecideInWords(c.value, c.expanded_uncertainty, c.limit, c.rule, "µm");
+    EXPECT_EQ(decision.words, c.words);
+    EXPECT_NEAR(decision.margin, c.margin, 1e-12) << c.words;  // rounding
+    EXPECT_EQ(decision.verdict, Decide(c.value, c.expanded_uncertainty, c.limit, c.rule));
+  }
+}
+
 TEST(Decision, OverallVerdictIsTheWorstDecidedOne) {
   using enum Verdict;
   EXPECT_EQ(OverallVerdict({}), kUndecided);
