@@ -86,6 +86,15 @@ ResultTable SummaryTable(const ResultsDraft& draft) {
   return table;
 }
 
+// Every limit's verdict with its margin in words.
+ResultTable DecisionsTable(const ResultsDraft& draft) {
+  ResultTable table("decisions", "Decisions", {{"Quantity", ""}, {"Decision", ""}});
+  for (const Quantity& quantity : draft.quantities)
+    if (quantity.in_summary && quantity.limit && !quantity.is_check)
+      table.AddRow({quantity.label, DecisionWords(quantity, draft.acceptance)});
+  return table;
+}
+
 // The files this report was made from, as they are now.
 Result<ResultTable> EvidenceTable(const std::filesystem::path& results) {
   ResultTable table("result-files", "Files of the results folder",
@@ -111,6 +120,7 @@ Json ResultsJson(ResultsDraft draft, const Json& inputs, const std::string& verd
                  {"printed_undecided", UndecidedSentence(draft)}}},
                {"measured", draft.measured},
                {"diagnosis", std::move(draft.diagnosis)},
+               {"sentences", std::move(draft.sentences)},
                {"quantities", Json::array()},
                {"tables", std::move(draft.tables)},
                {"inputs", inputs}};
@@ -148,6 +158,8 @@ Result<Outcome> MakeResults(const std::filesystem::path& results) {
   AddRuler(parts.ruler, draft);
   AddStrain(parts.strain, parts.calibration, draft);
   draft.AddTable(SummaryTable(draft));
+  ResultTable decisions = DecisionsTable(draft);
+  if (!decisions.empty()) draft.AddTable(std::move(decisions));
   AddInputs(parts.inputs, draft);
   TELESTRAIN_ASSIGN_OR_RETURN(ResultTable evidence, EvidenceTable(results));
   draft.AddTable(std::move(evidence));

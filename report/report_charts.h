@@ -31,6 +31,12 @@ Status DrawProjectionUncertaintyOfEverything(const ReportContext& context, const
 Status DrawPinholeRms(const ReportContext& context, const PageBox& box);
 Status DrawPinholeRuler(const ReportContext& context, const PageBox& box);
 
+// Length errors over the ruler's position along the pipe and over its depth, and the strain's error
+// over the gauges with the unloading states apart; from the tables "ruler" and "strain-states".
+Status DrawRulerPositions(const ReportContext& context, const PageBox& box);
+Status DrawRulerDepths(const ReportContext& context, const PageBox& box);
+Status DrawStrainHysteresis(const ReportContext& context, const PageBox& box);
+
 // "no data" in the middle of an empty frame.
 void DrawNoData(const ReportContext& context, const PageBox& box);
 

@@ -55,7 +55,14 @@ const std::vector<std::string>& TableNames() {
                                                   "residual-boards",
                                                   "outlier-replay",
                                                   "uncertainty",
-                                                  "pinhole"};
+                                                  "pinhole",
+                                                  "decisions",
+                                                  "ruler-trends",
+                                                  "ruler-acceptance",
+                                                  "sequence",
+                                                  "sequence-cycles",
+                                                  "extensometer-class",
+                                                  "gauge-outliers"};
   return kNames;
 }
 
@@ -68,13 +75,15 @@ const std::vector<std::string>& ChartNames() {
       "diagnosis-lengths",    "diagnosis-directions",
       "regional-means",       "regional-deviations",
       "pinhole-rms",          "pinhole-ruler",
-      "uncertainty-of-noise", "uncertainty-of-everything"};
+      "uncertainty-of-noise", "uncertainty-of-everything",
+      "ruler-positions",      "ruler-depths",
+      "strain-hysteresis"};
   return kNames;
 }
 
 const std::vector<std::string>& ConditionNames() {
-  static const std::vector<std::string> kNames = {"calibration", "diagnosis", "pinhole",
-                                                  "ruler",       "strain",    "gauges"};
+  static const std::vector<std::string> kNames = {"calibration", "diagnosis", "pinhole", "ruler",
+                                                  "strain",      "gauges",    "sequence"};
   return kNames;
 }
 

@@ -1,5 +1,7 @@
 #include "report/result_cells.h"
 
+#include <limits>
+
 #include "base/check.h"
 #include "base/numbers.h"
 #include "report/rounding.h"
@@ -91,6 +93,16 @@ std::optional<Verdict> Acceptance::DecideQuantity(const Quantity& quantity) cons
 void ResultsDraft::AddQuantity(Quantity quantity) {
   if (!quantity.verdict) quantity.verdict = acceptance.DecideQuantity(quantity);
   quantities.push_back(std::move(quantity));
+}
+
+std::string DecisionWords(const Quantity& quantity, const Acceptance& acceptance) {
+  constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
+  const double uncertainty =
+      quantity.expanded_uncertainty.value_or(quantity.has_uncertainty ? kMissing : 0);
+  const bool decided = quantity.verdict.value_or(Verdict::kUndecided) != Verdict::kUndecided;
+  return DecideInWords(decided ? quantity.value.value_or(kMissing) : kMissing, uncertainty,
+                       quantity.limit.value_or(kMissing), acceptance.rule, quantity.unit)
+      .words;
 }
 
 Json QuantityJson(const Quantity& quantity, double coverage_factor) {

@@ -99,11 +99,15 @@ struct ResultsDraft {
   Json tables = Json::array();
   Json measured = Json::object();   // section -> bool
   Json diagnosis = Json::object();  // sentences of the diagnosis, as printed
+  Json sentences = Json::object();  // of the other sections
 
   void AddTable(ResultTable table) { tables.push_back(table.TakeJson()); }
   // Decides the quantity by its limit if it has no verdict yet.
   void AddQuantity(Quantity quantity);
 };
+
+// The verdict of a quantity with a limit in words, by its margin.
+std::string DecisionWords(const Quantity& quantity, const Acceptance& acceptance);
 
 // The quantity as it stands in results.json.
 Json QuantityJson(const Quantity& quantity, double coverage_factor);

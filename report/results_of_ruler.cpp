@@ -30,10 +30,20 @@ LengthError DecideImage(const Json& image, const Acceptance& acceptance) {
   return error;
 }
 
-std::vector<Json> RulerRow(const Json& image, const Quantity& error) {
+// `acceptance` holds where the ruler of this image was; null in results of older versions.
+std::vector<Json> RulerRow(const Json& image, const Quantity& error, const Json& acceptance) {
   const ResultCellPair cells = ResultCells(error.value, error.expanded_uncertainty, error.decimals);
-  return {TextAt(image, "/image", "?"), FixedCell(NumberAt(image, "/length_mm"), 5), cells.value,
-          cells.uncertainty, VerdictCell(error.verdict.value_or(Verdict::kUndecided))};
+  const Json& where = FindBy(ListAt(acceptance, "/images"), "image", TextAt(image, "/image"));
+  return {TextAt(image, "/image", "?"),
+          FixedCell(NumberAt(image, "/length_mm"), 5),
+          cells.value,
+          cells.uncertainty,
+          VerdictCell(error.verdict.value_or(Verdict::kUndecided)),
+          FixedCell(NumberAt(where, "/middle_in_array_mm/0"), 2),
+          FixedCell(NumberAt(where, "/middle_in_array_mm/1"), 2),
+          FixedCell(NumberAt(where, "/depth_mm"), 2),
+          FixedCell(NumberAt(where, "/yaw_deg"), 2),
+          FixedCell(NumberAt(where, "/pitch_deg"), 2)};
 }
 
 void AddSummary(const Json& ruler, ResultsDraft& draft) {
@@ -76,12 +86,21 @@ void AddRuler(const Json& ruler, ResultsDraft& draft) {
   worst.has_uncertainty = true;
   worst.limit = draft.acceptance.ruler_mpe_um;
   ResultTable table("ruler", "Length error of every ruler image",
-                    {{"Image", ""}, {"Length", "mm"}, {"E", "µm"}, {"U", "µm"}, {"Verdict", ""}});
+                    {{"Image", ""},
+                     {"Length", "mm"},
+                     {"E", "µm"},
+                     {"U", "µm"},
+                     {"Verdict", ""},
+                     {"x", "mm"},
+                     {"y", "mm"},
+                     {"Depth", "mm"},
+                     {"Yaw", "°"},
+                     {"Pitch", "°"}});
   std::optional<LengthError> found;
   for (const Json& image : ListAt(ruler, "/images")) {
     if (!NumberAt(image, "/error_um")) continue;
     LengthError error = DecideImage(image, draft.acceptance);
-    table.AddRow(RulerRow(image, error.quantity));
+    table.AddRow(RulerRow(image, error.quantity, EntryAt(ruler, "/acceptance")));
     if (!found || error.Badness() > found->Badness()) found = std::move(error);
   }
   draft.measured["ruler"] = found.has_value();
@@ -92,6 +111,7 @@ void AddRuler(const Json& ruler, ResultsDraft& draft) {
   draft.AddTable(std::move(table));
   AddSummary(ruler, draft);
   AddBudget(ruler, draft);
+  AddRulerAcceptance(EntryAt(ruler, "/acceptance"), draft);
 }
 
 }  // namespace telestrain

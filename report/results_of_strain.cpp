@@ -86,12 +86,18 @@ void AddComparison(const Json& strain, ResultsDraft& draft) {
   error.limit_kind = "max";
   error.decimals = 1;
   error.value = NumberAt(comparison, "/rms_error_microstrain");
-  error.expanded_uncertainty =
-      draft.acceptance.Expanded(NumberAt(comparison, "/standard_uncertainty_microstrain"));
+  const auto with_gauges = NumberAt(comparison, "/error_uncertainty_microstrain");
+  error.expanded_uncertainty = draft.acceptance.Expanded(
+      with_gauges ? with_gauges : NumberAt(comparison, "/standard_uncertainty_microstrain"));
   error.has_uncertainty = true;
   error.limit = draft.acceptance.strain_error_microstrain;
   draft.AddQuantity(error);
   if (!has_gauges) return;
+  draft.sentences["strain_uncertainty"] =
+      std::string(
+          "U of the strain error is the coverage factor times the RMS of the standard "
+          "uncertainties over the states compared: the camera's") +
+      (with_gauges ? " and the gauges'." : "; the gauges' own uncertainty is not included.");
   ResultTable table = FactTable("strain-comparison", "Camera against gauges");
   const auto fixed = [&](const char* pointer, int decimals) {
     return FixedCell(NumberAt(comparison, pointer), decimals);
@@ -99,7 +105,9 @@ void AddComparison(const Json& strain, ResultsDraft& draft) {
   table.AddFact("States compared", CountCell(NumberAt(comparison, "/count")));
   const ResultCellPair rms = ResultCells(error.value, error.expanded_uncertainty, error.decimals);
   table.AddFact("RMS error", rms.value, "µε");
-  table.AddFact("U of the RMS error (camera only)", rms.uncertainty, "µε");
+  table.AddFact(
+      with_gauges ? "U of the RMS error (camera and gauges)" : "U of the RMS error (camera only)",
+      rms.uncertainty, "µε");
   table.AddFact("Mean error", fixed("/mean_error_microstrain", 1), "µε");
   table.AddFact("Largest error", fixed("/max_abs_error_microstrain", 1), "µε");
   table.AddFact("Slope of the regression", fixed("/slope", 4));
@@ -182,12 +190,14 @@ void AddStrain(const Json& strain, const Json& calibration, ResultsDraft& draft)
   const bool measured = !ListAt(strain, "/states").empty();
   draft.measured["strain"] = measured;
   AddComparison(strain, draft);
+  draft.measured["sequence"] = false;
   if (!measured) return;
   AddStates(strain, draft);
   AddRejectedPoints(strain, draft);
   AddPipe(strain, draft);
   AddBudget(strain, draft);
   AddCorrelation(strain, calibration, draft);
+  AddSequence(strain, draft);
 }
 
 }  // namespace telestrain

@@ -23,8 +23,13 @@ void AddResidualDiagnosis(const Json& residuals, ResultsDraft& draft);
 void AddPinhole(const Json& pinhole, const Json& ruler, ResultsDraft& draft);
 // Length errors with their verdicts, summary and budget.
 void AddRuler(const Json& ruler, ResultsDraft& draft);
+// The part `acceptance` of ruler.json: trends, bias, spread, repeatability.
+void AddRulerAcceptance(const Json& acceptance, ResultsDraft& draft);
 // States, comparison with the gauges, pipe, budget, correlation settings.
 void AddStrain(const Json& strain, const Json& calibration, ResultsDraft& draft);
+
+// What strain.json says of the sequence: regression, cycles, drift, noise floors, classes, gauges.
+void AddSequence(const Json& strain, ResultsDraft& draft);
 
 // The limits and the rule of inputs.json.
 Acceptance ReadAcceptance(const Json& inputs);

@@ -24,7 +24,7 @@ struct Decision {
   // Room between the value with its guard band and the limit; negative where it is exceeded. 0 when
   // undecided.
   double margin = 0;
-  // "passes with 3.2 µm to spare beyond U", "in doubt: 0.40 µm over the guard band; repeat with U
+  // "passes with 3.2 µm to spare beyond U", "in doubt: 0.4 µm over the guard band; repeat with U
   // of 1.1 µm or less to pass", "fails: 1.2 µm outside beyond U", "not decided: …".
   std::string words;
 };

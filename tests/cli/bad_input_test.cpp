@@ -37,6 +37,14 @@ TEST_F(BadInput, AnImageCutShortIsNamedBeforeAnythingIsWritten) {
   }
 }
 
+TEST_F(BadInput, ARulerThatIsACopyOfACalibrationImageIsNamedWithIt) {
+  std::filesystem::copy_file(session() / "calibration/pose_004_stage_1.png",
+                             session() / "ruler/ruler_002.png",
+                             std::filesystem::copy_options::overwrite_existing);
+  ExpectBadInput({"ruler.csv: ", "'ruler/ruler_002.png'", "'calibration/pose_004_stage_1.png'",
+                  "remove it from one of the tables"});
+}
+
 TEST_F(BadInput, AnEmptyImageIsNamed) {
   KeepBytes("ruler/ruler_001.png", 0);
   ExpectBadInput({"ruler/ruler_001.png: ", "empty", "PNG"});

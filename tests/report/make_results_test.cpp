@@ -152,6 +152,42 @@ TEST(MakeResults, TheStrainErrorIsDecidedWithTheCamerasUncertainty) {
   EXPECT_EQ(TextAt(QuantityOf(results, "strain_error"), "/verdict"), "doubt");
 }
 
+TEST(MakeResults, TheGaugesUncertaintyCountsWhereItIsKnown) {
+  ResultsFixture fixture = WithoutPictures();
+  fixture.strain["comparison"]["error_uncertainty_microstrain"] = 5.0;
+  std::string verdict;
+  const Json results = ResultsOf(fixture, verdict);
+  EXPECT_DOUBLE_EQ(*NumberAt(QuantityOf(results, "strain_error"), "/expanded_uncertainty"), 10);
+  EXPECT_NE(TextAt(results, "/sentences/strain_uncertainty").find("and the gauges'"),
+            std::string::npos);
+}
+
+TEST(MakeResults, DecisionsSayTheirMarginInWords) {
+  ResultsFixture fixture = WithoutPictures();
+  fixture.ruler["images"][4]["error_um"] = -9.2;  // U = 2 · 0.89
+  std::string verdict;
+  const Json results = ResultsOf(fixture, verdict);
+  const Json& rows = TableOf(results, "decisions")["rows"];
+  ASSERT_EQ(rows.size(), 3u);
+  bool found = false;
+  for (const Json& row : rows)
+    found =
+        found ||
+        row[1] == "in doubt: 1.0 µm over the guard band; repeat with U of 0.8 µm or less to pass";
+  EXPECT_TRUE(found) << rows.dump(1);
+}
+
+TEST(MakeResults, OlderResultsWithoutAcceptanceAndSequenceAreRead) {
+  ResultsFixture fixture = WithoutPictures();
+  fixture.ruler.erase("acceptance");
+  fixture.strain.erase("sequence");
+  std::string verdict;
+  const Json results = ResultsOf(fixture, verdict);
+  EXPECT_EQ(verdict, "pass");
+  EXPECT_EQ(EntryAt(results, "/measured/sequence"), false);
+  EXPECT_TRUE(EntryAt(TableOf(results, "ruler")["rows"][0], "/5/value").is_null());
+}
+
 TEST(MakeResults, TheGaugesChangeIsComparedNotTheirReading) {
   const ResultsFixture fixture = WithoutPictures();
   std::string verdict;

@@ -106,6 +106,44 @@ Json MakeDetection() {
   return detection;
 }
 
+Json Known(double value, double standard_uncertainty) {
+  return {{"value", value},
+          {"standard_uncertainty", standard_uncertainty},
+          {"degrees_of_freedom", nullptr},
+          {"expanded_uncertainty", 2 * standard_uncertainty}};
+}
+
+Json MakeAcceptance(const Json& images) {
+  Json acceptance = {{"coverage_factor", 2.0},
+                     {"images", Json::array()},
+                     {"trends", Json::array()},
+                     {"bias_um", Known(0.41, 0.38)},
+                     {"spread_um", Known(1.72, 0.21)},
+                     {"stated_spread_um", 1.66},
+                     {"repeatability",
+                      {{"sd_um", 1.58},
+                       {"degrees_of_freedom", 9},
+                       {"method", "no pose was repeated: scatter about the mean"}}},
+                     {"printed_count", "11 values of one length; 24 more are wanted."},
+                     {"not_in_budget", {"The target's pitch is not in the budget."}}};
+  double place = -1.3;
+  for (const Json& image : images)
+    if (image.contains("error_um"))
+      acceptance["images"].push_back({{"image", image["image"]},
+                                      {"middle_in_array_mm", {place += 0.2, 0.31, -0.12}},
+                                      {"depth_mm", 0.4 * place},
+                                      {"yaw_deg", 0.21},
+                                      {"pitch_deg", -0.35}});
+  for (const char* on : {"x", "depth", "x²"})
+    acceptance["trends"].push_back({{"on", on},
+                                    {"unit", "µm/mm"},
+                                    {"slope", Known(0.21, 0.34)},
+                                    {"range", 2.2},
+                                    {"effect_um", Known(0.46, 0.75)},
+                                    {"significant", false}});
+  return acceptance;
+}
+
 Json MakeRuler() {
   Noise noise;
   Json json = {{"schema", "telestrain.ruler/1"},
@@ -134,7 +172,51 @@ Json MakeRuler() {
   json["budget"].push_back({{"source", "magnification"}, {"standard_uncertainty_um", 0.743}});
   json["budget"].push_back({{"source", "cross detection"}, {"standard_uncertainty_um", 0.214}});
   json["budget"].push_back({{"source", "ruler certificate"}, {"standard_uncertainty_um", 0.25}});
+  json["acceptance"] = MakeAcceptance(json["images"]);
   return json;
+}
+
+Json MakeClass(const char* standard, const char* name, const char* unit) {
+  return {{"standard", standard},
+          {"class", name},
+          {"class_with_uncertainty", nullptr},
+          {"unit", unit},
+          {"count", kStates - 1},
+          {"range", 24.9},
+          {"worst_image", "pipe/state_03.png"},
+          {"worst_error", 0.21},
+          {"worst_limit", 0.6},
+          {"resolution", 0.08},
+          {"resolution_limit", 0.2},
+          {"not_covered", {"The reference is the strain gauges on the pipe."}}};
+}
+
+Json MakeSequence() {
+  const Json regression = {{"count", kStates - 1},
+                           {"slope", Known(1.00217, 0.0031)},
+                           {"intercept_microstrain", Known(-1.12, 2.4)},
+                           {"bias_microstrain", Known(-0.87, 1.9)},
+                           {"residual_rms_microstrain", 4.1}};
+  const Json floor = {{"count", 3},
+                      {"mean_microstrain", Known(0.12, 0.31)},
+                      {"sd_microstrain", 0.27},
+                      {"max_abs_microstrain", 0.4},
+                      {"stated_sd_microstrain", 0.25}};
+  Json cycles = Json::array();
+  cycles.push_back({{"cycle", "1"},
+                    {"regression", regression},
+                    {"hysteresis", {{"largest_microstrain", Known(2.1, 3.7)}}},
+                    {"zero_microstrain", nullptr}});
+  return {{"regression", regression},
+          {"cycles", cycles},
+          {"drift_microstrain_per_hour", Known(0.44, 0.61)},
+          {"largest_change_between_cycles_microstrain", Known(0.7, 0.9)},
+          {"repeatability", {{"sd_microstrain", 3.3}}},
+          {"noise_floor_still", nullptr},
+          {"noise_floor_moved", floor},
+          {"warm_up", {{"printed", "No drift is resolved."}, {"time_constant_s", nullptr}}},
+          {"iso9513", MakeClass("ISO 9513:2012, Table 2", "0.2", "µm")},
+          {"astm_e83", MakeClass("ASTM E83, Table 1", "A", "µε")}};
 }
 
 void AddComparison(Json& json) {
@@ -192,6 +274,12 @@ Json MakeStrain() {
                               {"file", Numbered("pipe_0", i)}});
   }
   AddComparison(json);
+  json["sequence"] = MakeSequence();
+  json["gauge_outliers"] = Json::array();
+  json["gauge_outliers"].push_back({{"column", "gauge_3_microstrain"},
+                                    {"image", "pipe/state_02.png"},
+                                    {"deviation_microstrain", 14.8},
+                                    {"standard_uncertainty_microstrain", 1.7}});
   return json;
 }
 
