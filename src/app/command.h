@@ -55,4 +55,14 @@ struct CalibrateArguments {
   void AddTo(CLI::App& app);
 };
 
+// How to measure the pipe.
+struct MeasureArguments {
+  int subset_px = 0, step_px = 0;
+  std::string watch;
+  int until = 0;
+  double idle_s = 0;
+  void AddTo(CLI::App& app);  // subset and step
+  void AddWatchTo(CLI::App& app);
+};
+
 }  // namespace telestrain

@@ -14,16 +14,22 @@ class MeasureCommand : public Command {
   std::string Name() const override { return "measure"; }
   std::string Summary() const override { return "measure the strain of the pipe in every state"; }
   std::string Example() const override { return "telestrain measure session --out results"; }
-  void AddOptions(CLI::App& app) override { arguments_.AddTo(app); }
+  void AddOptions(CLI::App& app) override {
+    arguments_.AddTo(app);
+    choices_.AddTo(app);
+    choices_.AddWatchTo(app);
+  }
   Result<int> Run(Console& console) override {
+    TELESTRAIN_ASSIGN_OR_RETURN(const MeasureChoices choices, ReadChoices(choices_));
     TELESTRAIN_ASSIGN_OR_RETURN(const Session session,
                                 ReopenSession(arguments_.session, arguments_.out));
-    TELESTRAIN_RETURN_IF_ERROR(MeasureStep(session, arguments_.out, console));
+    TELESTRAIN_RETURN_IF_ERROR(MeasureStep(session, arguments_.out, choices, console));
     return 0;
   }
 
  private:
   SessionArguments arguments_;
+  MeasureArguments choices_;
 };
 
 }  // namespace

@@ -27,10 +27,12 @@ class RunCommand : public Command {
     arguments_.AddTo(app);
     AddCornersOption(app, corners_);
     choices_.AddTo(app);
+    measure_.AddTo(app);
   }
   Result<int> Run(Console& console) override {
     const std::string& out = arguments_.out;
     TELESTRAIN_ASSIGN_OR_RETURN(const CalibrateChoices choices, ReadChoices(choices_));
+    TELESTRAIN_ASSIGN_OR_RETURN(const MeasureChoices measure, ReadChoices(measure_));
     TELESTRAIN_ASSIGN_OR_RETURN(const Session session,
                                 OpenSession(arguments_.session, out, corners_));
     TELESTRAIN_RETURN_IF_ERROR(DetectStep(session, out, corners_, console));
@@ -39,7 +41,7 @@ class RunCommand : public Command {
     TELESTRAIN_ASSIGN_OR_RETURN([[maybe_unused]] const int checked,
                                 DiagnoseStep(out, false, console));
     TELESTRAIN_RETURN_IF_ERROR(VerifyStep(session, out, console));
-    TELESTRAIN_RETURN_IF_ERROR(MeasureStep(session, out, console));
+    TELESTRAIN_RETURN_IF_ERROR(MeasureStep(session, out, measure, console));
     TELESTRAIN_RETURN_IF_ERROR(RenderStep(out, console));
     return ReportStep(out, {}, console);
   }
@@ -48,6 +50,7 @@ class RunCommand : public Command {
   SessionArguments arguments_;
   std::string corners_;
   CalibrateArguments choices_;
+  MeasureArguments measure_;
 };
 
 }  // namespace

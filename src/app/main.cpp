@@ -39,6 +39,24 @@ void CalibrateArguments::AddTo(CLI::App& app) {
                  "leave out the corners in X,Y,WIDTH,HEIGHT (px on the sensor); may be repeated");
 }
 
+void MeasureArguments::AddTo(CLI::App& app) {
+  app.add_option("--subset-px", subset_px,
+                 "odd side of the square subsets that are correlated (default: a sixteenth of the "
+                 "shortest side of a view)");
+  app.add_option("--step-px", step_px,
+                 "distance between the subsets (default: their side); a smaller one gives a denser "
+                 "map of points that are not independent");
+}
+
+void MeasureArguments::AddWatchTo(CLI::App& app) {
+  auto* folder = app.add_option("--watch", watch,
+                                "measure the images that arrive in this folder, until interrupted; "
+                                "pipe.csv there or in the session names their load steps");
+  app.add_option("--until", until, "end after so many states")->needs(folder);
+  app.add_option("--idle-s", idle_s, "end after so many seconds without a new image")
+      ->needs(folder);
+}
+
 namespace {
 
 constexpr int kUsageExit = 2;

@@ -1,6 +1,9 @@
 #include "app/results_folder.h"
 
+#include <charconv>
+#include <functional>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <system_error>
 #include <tuple>
 
@@ -24,16 +27,28 @@ const std::vector<std::string>& OutputsOf(Step step) {
       {Step::kCalibrate, {"calibration.json", "residuals.csv", "comparison.json"}},
       {Step::kDiagnose, {"mrcal.json"}},
       {Step::kVerify, {"ruler.csv", "ruler.json"}},
-      {Step::kMeasure, {"strain.csv", "strain.json"}},
+      {Step::kMeasure, {"strain.csv", "strain.json", "strain_states.jsonl"}},
       {Step::kRender, {"pictures/array.png", "pictures/targets.png", "pictures/pipe_strain.png"}},
       {Step::kReport, {"results.json", "report.pdf"}}};
   return kOutputs.at(step);
 }
 
-// pipe_000.vtp and so on, as MeasureStep names them.
-bool IsSurfaceName(const std::string& name) {
-  if (!name.starts_with("pipe_") || !name.ends_with(".vtp") || name.size() < 12) return false;
-  return name.find_first_not_of("0123456789", 5) == name.size() - 4;
+// The state of a file named pipe_000.vtp and so on, as MeasureStep names them.
+std::optional<std::size_t> StateOfSurface(const std::string& name) {
+  if (!name.starts_with("pipe_") || !name.ends_with(".vtp") || name.size() < 12) return {};
+  std::size_t state = 0;
+  const char* const end = name.data() + name.size() - 4;
+  const auto [stop, failed] = std::from_chars(name.data() + 5, end, state);
+  if (failed != std::errc() || stop != end) return {};
+  return state;
+}
+
+// What WriteFileAtomically leaves of a file of `measure` when it is killed.
+bool IsHalfWritten(const std::string& name) {
+  const std::size_t part = name.rfind(".part");
+  if (part == std::string::npos) return false;
+  const std::string whole = name.substr(0, part);
+  return whole.starts_with("strain") || StateOfSurface(whole).has_value();
 }
 
 Status Remove(const fs::path& path) {
@@ -44,13 +59,13 @@ Status Remove(const fs::path& path) {
                       "; remove it by hand or choose another --out folder");
 }
 
-Status RemoveSurfaces(const fs::path& folder) {
+Status RemoveNamed(const fs::path& folder, const std::function<bool(const std::string&)>& goes) {
   std::error_code code;
-  std::vector<fs::path> surfaces;
+  std::vector<fs::path> names;
   for (fs::directory_iterator entry(folder, code), end; !code && entry != end;
        entry.increment(code))
-    if (IsSurfaceName(entry->path().filename().string())) surfaces.push_back(entry->path());
-  for (const fs::path& surface : surfaces) TELESTRAIN_RETURN_IF_ERROR(Remove(surface));
+    if (goes(entry->path().filename().string())) names.push_back(entry->path());
+  for (const fs::path& name : names) TELESTRAIN_RETURN_IF_ERROR(Remove(name));
   return {};
 }
 
@@ -120,9 +135,22 @@ Status RemoveOutputsFrom(const fs::path& results, Step step) {
     if (step == Step::kDiagnose && later == Step::kRender) continue;  // pictures do not show it
     for (const std::string& name : OutputsOf(later))
       TELESTRAIN_RETURN_IF_ERROR(Remove(results / name));
-    if (later == Step::kMeasure) TELESTRAIN_RETURN_IF_ERROR(RemoveSurfaces(results));
+    if (later == Step::kMeasure) TELESTRAIN_RETURN_IF_ERROR(RemoveSurfacesFrom(results, 0));
   }
   return {};
+}
+
+Status RemoveSurfacesFrom(const fs::path& results, std::size_t first) {
+  return RemoveNamed(results, [&](const std::string& name) {
+    const auto state = StateOfSurface(name);
+    return state && *state >= first;
+  });
+}
+
+Status RemoveEndOfMeasure(const fs::path& results) {
+  TELESTRAIN_RETURN_IF_ERROR(Remove(results / "strain.json"));
+  TELESTRAIN_RETURN_IF_ERROR(RemoveNamed(results, IsHalfWritten));
+  return RemoveOutputsFrom(results, Step::kRender);
 }
 
 Result<std::string> InputsText(const Session& session, const fs::path& corners) {
@@ -157,7 +185,7 @@ Result<Session> RecordedSession(const fs::path& results) {
   }
 }
 
-Status RequireSameInputs(const Session& session, const fs::path& results) {
+Result<std::map<std::string, std::string>> RecordedHashes(const fs::path& results) {
   TELESTRAIN_ASSIGN_OR_RETURN(
       const Json inputs, ReadJson(results / "inputs.json", kInputsSchema, "telestrain detect"));
   std::map<std::string, std::string> recorded;
@@ -167,6 +195,11 @@ Status RequireSameInputs(const Session& session, const fs::path& results) {
     return BadInput((results / "inputs.json").string() + ": " + e.what() +
                     "; run 'telestrain detect' again");
   }
+  return recorded;
+}
+
+Status RequireSameInputs(const Session& session, const fs::path& results) {
+  TELESTRAIN_ASSIGN_OR_RETURN(auto recorded, RecordedHashes(results));
   std::vector<std::string> names = TableNames(session);
   for (const std::string& name : ImageNames(session)) names.push_back(name);
   for (const std::string& name : names) {

@@ -16,6 +16,12 @@ enum class Step { kDetect, kCalibrate, kDiagnose, kVerify, kMeasure, kRender, kR
 // Removes the files of this step and of those that depend on it.
 Status RemoveOutputsFrom(const std::filesystem::path& results, Step step);
 
+// Removes what `measure` makes at its end and the steps after it make of that, but not the files of
+// the single states. What a killed run left half-written goes too.
+Status RemoveEndOfMeasure(const std::filesystem::path& results);
+// Removes pipe_NNN.vtp of the states from `first` on.
+Status RemoveSurfacesFrom(const std::filesystem::path& results, std::size_t first);
+
 // The text of inputs.json: the session's facts, the program and the SHA-256 of every input file,
 // among them `corners` when the target's corners come from there. Fails (kBadInput) when an image
 // is unreadable, cut short or of another size than the sensor's, and when a ruler image has the
@@ -35,6 +41,9 @@ Status RequireSameInputs(const Session& session, const std::filesystem::path& re
 // Fails (kBadInput) when the folder is no results folder (no inputs.json), or when a result of a
 // step earlier than `before` was made from another version of a file than the one that lies there.
 Status RequireConsistent(const std::filesystem::path& results, Step before);
+
+// SHA-256 of every input file as inputs.json has it, by its path in the session.
+Result<std::map<std::string, std::string>> RecordedHashes(const std::filesystem::path& results);
 
 // SHA-256 of files of the results folder, for `made_from`.
 Result<std::map<std::string, std::string>> HashesOf(const std::filesystem::path& results,

@@ -7,7 +7,6 @@
 #include "base/json_file.h"
 #include "base/numbers.h"
 #include "calibration/calibration_file.h"
-#include "measurement/pipe_file.h"
 #include "measurement/ruler_acceptance.h"
 #include "report/acceptance_report.h"
 #include "target/corner_import.h"
@@ -17,20 +16,6 @@ namespace telestrain {
 namespace {
 
 namespace fs = std::filesystem;
-
-// The calibration in the results folder, which must be of this session's views.
-Result<ArrayCalibration> LoadCalibration(const Session& session, const fs::path& results) {
-  TELESTRAIN_RETURN_IF_ERROR(RequireConsistent(results, Step::kDiagnose));
-  TELESTRAIN_ASSIGN_OR_RETURN(ArrayCalibration array,
-                              ReadArrayCalibration(results / "calibration.json"));
-  bool same = array.views.size() == session.views.size();
-  for (std::size_t i = 0; same && i < array.views.size(); ++i)
-    same = array.views[i].name == session.views[i].name;
-  if (!same)
-    return BadInput((results / "calibration.json").string() +
-                    ": has other views than the session; run 'telestrain calibrate' again");
-  return array;
-}
 
 // One line for every limit that is not met or could not be decided.
 Status SayWhy(const fs::path& results, Console& console) {
@@ -56,6 +41,19 @@ Status SayWhy(const fs::path& results, Console& console) {
 }
 
 }  // namespace
+
+Result<ArrayCalibration> LoadCalibration(const Session& session, const fs::path& results) {
+  TELESTRAIN_RETURN_IF_ERROR(RequireConsistent(results, Step::kDiagnose));
+  TELESTRAIN_ASSIGN_OR_RETURN(ArrayCalibration array,
+                              ReadArrayCalibration(results / "calibration.json"));
+  bool same = array.views.size() == session.views.size();
+  for (std::size_t i = 0; same && i < array.views.size(); ++i)
+    same = array.views[i].name == session.views[i].name;
+  if (!same)
+    return BadInput((results / "calibration.json").string() +
+                    ": has other views than the session; run 'telestrain calibrate' again");
+  return array;
+}
 
 Result<Session> OpenSession(const fs::path& folder, const fs::path& results,
                             const fs::path& corners) {
@@ -132,34 +130,6 @@ Status VerifyStep(const Session& session, const fs::path& results, Console& cons
   for (const RulerLength& length : lengths)
     if (!length.rejected_because.empty())
       console.Note("  not used: " + length.image + ": " + length.rejected_because);
-  return {};
-}
-
-Status MeasureStep(const Session& session, const fs::path& results, Console& console) {
-  TELESTRAIN_ASSIGN_OR_RETURN(const ArrayCalibration array, LoadCalibration(session, results));
-  TELESTRAIN_RETURN_IF_ERROR(RemoveOutputsFrom(results, Step::kMeasure));
-  if (session.pipe_states.empty()) {
-    console.Say("measure    the session has no pipe images");
-    return {};
-  }
-  TELESTRAIN_ASSIGN_OR_RETURN(const PipeMeasurement measurement,
-                              MeasurePipe(session, array, DefaultPipeOptions(session), console));
-  for (std::size_t i = 0; i < measurement.states.size(); ++i)
-    TELESTRAIN_RETURN_IF_ERROR(WriteFileAtomically(
-        results / SurfaceFileName(i),
-        SurfaceVtp(measurement.grid, measurement.states[i].strain, &measurement.geometry)));
-  TELESTRAIN_ASSIGN_OR_RETURN(const auto made_from,
-                              HashesOf(results, {"inputs.json", "calibration.json"}));
-  TELESTRAIN_RETURN_IF_ERROR(WriteFileAtomically(results / "strain.csv", StrainCsv(measurement)));
-  TELESTRAIN_RETURN_IF_ERROR(
-      WriteJson(results / "strain.json", StrainJson(measurement, made_from)));
-  console.Say("measure    " + CountText(measurement.states.size(), "state") + ", " +
-              CountText(measurement.grid.points.size(), "surface point") + ", pipe diameter " +
-              FormatFixed(2 * measurement.grid.pipe.radius_mm, 4) + " mm");
-  for (const MeasuredState& state : measurement.states)
-    console.Note("  " + state.table.image + ": " + FormatFixed(1e6 * state.strain.axial_strain, 2) +
-                 " +- " + FormatFixed(1e6 * state.strain.standard_uncertainty, 2) +
-                 " microstrain (standard uncertainty)");
   return {};
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "app/command.h"
+#include "app/watched_folder.h"
 #include "base/console.h"
 #include "base/result.h"
 #include "calibration/calibrate.h"
@@ -24,6 +25,10 @@ Result<Session> OpenSession(const std::filesystem::path& folder,
 // For the steps after `detect`: reads the session and requires that inputs.json was made from it.
 Result<Session> ReopenSession(const std::filesystem::path& folder,
                               const std::filesystem::path& results);
+
+// The calibration in the results folder, which must be of this session's views.
+Result<ArrayCalibration> LoadCalibration(const Session& session,
+                                         const std::filesystem::path& results);
 
 Status DetectStep(const Session& session, const std::filesystem::path& results,
                   const std::filesystem::path& corners, Console& console);
@@ -50,7 +55,17 @@ Status CalibrateStep(const Session& session, const std::filesystem::path& result
 // is an exit code: 1 when mrcal disagrees.
 Result<int> DiagnoseStep(const std::filesystem::path& results, bool with_table, Console& console);
 Status VerifyStep(const Session& session, const std::filesystem::path& results, Console& console);
-Status MeasureStep(const Session& session, const std::filesystem::path& results, Console& console);
+
+// How `measure` works beside its defaults.
+struct MeasureChoices {
+  int subset_px = 0, step_px = 0;  // 0: as DefaultPipeOptions
+  std::optional<WatchChoices> watch;
+};
+// Fails (kUsage) for a number outside its range.
+Result<MeasureChoices> ReadChoices(const MeasureArguments& arguments);
+// Goes on from the states that an earlier run of the same inputs left.
+Status MeasureStep(const Session& session, const std::filesystem::path& results,
+                   const MeasureChoices& choices, Console& console);
 Status RenderStep(const std::filesystem::path& results, Console& console);
 // Writes results.json and report.pdf, with the layout in `templates` when that is not empty. The
 // value is the exit code of the verdict.

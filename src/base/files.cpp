@@ -36,9 +36,9 @@ struct Descriptor {
   }
 };
 
-// Returns 0 or the errno of the first call that failed.
-int WriteAndSync(const std::filesystem::path& path, std::string_view bytes) {
-  Descriptor file{::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644)};
+// `flag`: O_TRUNC or O_APPEND. Returns 0 or the errno of the first call that failed.
+int WriteAndSync(const std::filesystem::path& path, std::string_view bytes, int flag) {
+  Descriptor file{::open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | flag, 0644)};
   if (file.value < 0) return errno;
   while (!bytes.empty()) {
     const ssize_t written = ::write(file.value, bytes.data(), bytes.size());
@@ -47,6 +47,11 @@ int WriteAndSync(const std::filesystem::path& path, std::string_view bytes) {
     bytes.remove_prefix(static_cast<std::size_t>(written));
   }
   return ::fsync(file.value) == 0 ? 0 : errno;
+}
+
+Error CannotWrite(const std::filesystem::path& path, int error_number) {
+  return OutputFailed(path.string() + ": cannot be written: " + Reason(error_number) +
+                      "; free some space or choose another --out folder");
 }
 
 }  // namespace
@@ -71,12 +76,16 @@ Result<std::string> ReadFile(const std::filesystem::path& path) {
 Status WriteFileAtomically(const std::filesystem::path& path, std::string_view bytes) {
   std::filesystem::path temporary = path;
   temporary += ".part" + std::to_string(::getpid());
-  int error_number = WriteAndSync(temporary, bytes);
+  int error_number = WriteAndSync(temporary, bytes, O_TRUNC);
   if (error_number == 0 && std::rename(temporary.c_str(), path.c_str()) != 0) error_number = errno;
   if (error_number == 0) return {};
   ::unlink(temporary.c_str());
-  return OutputFailed(path.string() + ": cannot be written: " + Reason(error_number) +
-                      "; free some space or choose another --out folder");
+  return CannotWrite(path, error_number);
+}
+
+Status AppendToFile(const std::filesystem::path& path, std::string_view bytes) {
+  const int error_number = WriteAndSync(path, bytes, O_APPEND);
+  return error_number == 0 ? Status{} : Status{CannotWrite(path, error_number)};
 }
 
 Status EnsureFolder(const std::filesystem::path& path) {

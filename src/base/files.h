@@ -15,6 +15,10 @@ Result<std::string> ReadFile(const std::filesystem::path& path);
 // either the old file or the whole new one. Fails (kOutputFailed) and removes the temporary.
 Status WriteFileAtomically(const std::filesystem::path& path, std::string_view bytes);
 
+// Adds `bytes` to the end of a file, which is made when it is missing, and syncs. Other readers see
+// the old end or the new one; a crash of the machine may leave a part. Fails (kOutputFailed).
+Status AppendToFile(const std::filesystem::path& path, std::string_view bytes);
+
 // Creates the folder and its parents; fails (kOutputFailed) when `path` exists and is no folder.
 Status EnsureFolder(const std::filesystem::path& path);
 

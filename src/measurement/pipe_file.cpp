@@ -130,7 +130,7 @@ std::string SurfaceFileName(std::size_t state) {
   return "pipe_" + number + ".vtp";
 }
 
-std::string StrainCsv(const PipeMeasurement& measurement) {
+std::string StrainCsvHeader(const MeasuredState& first) {
   std::vector<std::string> header{"image",
                                   "cycle",
                                   "step",
@@ -139,27 +139,22 @@ std::string StrainCsv(const PipeMeasurement& measurement) {
                                   "local_a_microstrain",
                                   "local_b_microstrain",
                                   "gauge_mean_microstrain"};
-  const auto append = [](std::vector<std::string>& row, const std::vector<std::string>& more) {
-    row.insert(row.end(), more.begin(), more.end());
-  };
-  if (!measurement.states.empty())
-    append(header, StrainDetailColumns(measurement.states.front().strain));
-  std::string text = CsvLine(header);
-  for (const MeasuredState& state : measurement.states) {
-    std::vector<std::string> row{state.table.image,
-                                 state.table.cycle,
-                                 state.table.step,
-                                 FormatFixed(kMicro * state.strain.axial_strain, 3),
-                                 FormatFixed(kMicro * state.strain.standard_uncertainty, 3),
-                                 FormatFixed(LocalMicrostrain(state.strain, 0), 3),
-                                 FormatFixed(LocalMicrostrain(state.strain, 1), 3),
-                                 state.gauge_mean_microstrain
-                                     ? FormatFixed(*state.gauge_mean_microstrain, 3)
-                                     : std::string()};
-    append(row, StrainDetailCells(state.strain));
-    text += CsvLine(row);
-  }
-  return text;
+  for (std::string& column : StrainDetailColumns(first.strain)) header.push_back(std::move(column));
+  return CsvLine(header);
+}
+
+std::string StrainCsvLine(const MeasuredState& state) {
+  std::vector<std::string> row{
+      state.table.image,
+      state.table.cycle,
+      state.table.step,
+      FormatFixed(kMicro * state.strain.axial_strain, 3),
+      FormatFixed(kMicro * state.strain.standard_uncertainty, 3),
+      FormatFixed(LocalMicrostrain(state.strain, 0), 3),
+      FormatFixed(LocalMicrostrain(state.strain, 1), 3),
+      state.gauge_mean_microstrain ? FormatFixed(*state.gauge_mean_microstrain, 3) : std::string()};
+  for (std::string& cell : StrainDetailCells(state.strain)) row.push_back(std::move(cell));
+  return CsvLine(row);
 }
 
 nlohmann::ordered_json StrainJson(const PipeMeasurement& measurement,
@@ -180,6 +175,7 @@ nlohmann::ordered_json StrainJson(const PipeMeasurement& measurement,
             {"sigma_diameter_mm", grid.sigma_diameter_mm},
             {"surface_rms_mm", grid.surface_rms_mm},
             {"points", grid.points.size()},
+            {"found_by_search", grid.found_by_search},
             {"rejected", grid.rejected}}},
           {"geometry", PipeGeometryJson(measurement.geometry)},
           {"definitions", StrainDefinitionsJson()},

@@ -8,8 +8,10 @@
 
 namespace telestrain {
 
-// strain.csv, one line per state.
-std::string StrainCsv(const PipeMeasurement& measurement);
+// strain.csv: its header, whose columns are those of the first state, and the line of one state,
+// with their line ends.
+std::string StrainCsvHeader(const MeasuredState& first);
+std::string StrainCsvLine(const MeasuredState& state);
 
 // strain.json; `made_from` names the inputs with their SHA-256.
 nlohmann::ordered_json StrainJson(const PipeMeasurement& measurement,

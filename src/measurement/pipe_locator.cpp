@@ -128,10 +128,11 @@ class Agreement {
     for (const Eigen::Vector2d& pixel : pixels_) rays_.push_back(array.RayOf(pair.first, pixel));
   }
 
-  double Score(const Cylinder& pipe) const {
+  // From every `stride`-th ray.
+  double Score(const Cylinder& pipe, std::size_t stride = 1) const {
     double fg = 0, ff = 0, gg = 0;
     std::size_t valid = 0;
-    for (std::size_t i = 0; i < rays_.size(); ++i) {
+    for (std::size_t i = 0; i < rays_.size(); i += stride) {
       const auto hit = pipe.Enter(rays_[i].point_in_array_mm, rays_[i].direction_in_array);
       if (!hit || pipe.Normal(*hit).dot(pair_.second_axis) > -kMinFacing) continue;
       const auto value = second_.Sample(array_.Project(pair_.second, *hit));
@@ -139,7 +140,7 @@ class Agreement {
       fg += values_[i] * *value;
       ff += values_[i] * values_[i];
       gg += *value * *value;
-      ++valid;
+      valid += stride;
     }
     if (5 * valid < rays_.size()) return -1;  // too little of the patch is common
     return fg / std::sqrt(std::max(1e-9, ff * gg));
@@ -154,25 +155,31 @@ class Agreement {
   std::vector<float> values_;
 };
 
+struct Trial {
+  double score = -2;
+  PipeParameters p{};
+  bool operator<(const Trial& other) const { return score < other.score; }
+};
+
+// Every position with a part of the rays, then with all of them the best position of every row:
+// chance agreement of the few is less than their share would suggest, but more than of the many.
 PipeParameters SearchExhaustively(const Agreement& agreement, const SearchFrame& frame,
                                   double step_mm) {
   constexpr double kAcross_mm = 1.5, kDeeper_mm = 3.0;
+  constexpr std::size_t kStride = 7;               // odd: not along the columns of the rays
   const double nearer_mm = frame.radius_mm + 1.5;  // the given centre may lie on the axis
   const int rows = static_cast<int>(2 * kAcross_mm / step_mm) + 1;
   const int columns = static_cast<int>((nearer_mm + kDeeper_mm) / step_mm) + 1;
-  std::vector<std::pair<double, PipeParameters>> best(static_cast<std::size_t>(rows),
-                                                      {-2.0, PipeParameters{}});
+  std::vector<Trial> best(static_cast<std::size_t>(rows));
   ParallelFor(rows, 0, [&](int row) {
+    Trial& of_row = best[static_cast<std::size_t>(row)];
     for (int column = 0; column < columns; ++column) {
       const PipeParameters p{-kAcross_mm + row * step_mm, -nearer_mm + column * step_mm, 0, 0};
-      const double score = agreement.Score(frame.Pipe(p));
-      auto& of_row = best[static_cast<std::size_t>(row)];
-      if (score > of_row.first) of_row = {score, p};
+      of_row = std::max(of_row, {agreement.Score(frame.Pipe(p), kStride), p});
     }
+    of_row.score = agreement.Score(frame.Pipe(of_row.p));
   });
-  return std::max_element(best.begin(), best.end(),
-                          [](const auto& a, const auto& b) { return a.first < b.first; })
-      ->second;
+  return std::max_element(best.begin(), best.end())->p;
 }
 
 // Pattern search: one parameter after the other, steps halved when nothing improves.

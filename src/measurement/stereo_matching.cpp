@@ -1,40 +1,33 @@
 #include "measurement/stereo_matching.h"
 
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 #include <optional>
 
+#include "base/parallel.h"
 #include "measurement/triangulation.h"
 
 namespace telestrain {
 namespace {
 
-constexpr int kBorder_px = 8;            // beyond the subset: room for the interpolation
+constexpr int kBorder_px = 8;  // beyond the subset: room for the interpolation
+constexpr double kInterpolationMargin_px = 3;
 constexpr double kMaxEpipolar_px = 1.5;  // of a match; larger is a wrong match
+// Where a node that does not match is looked for along its epipolar line: the correlation itself
+// reaches 3 px to either side.
+constexpr std::array<double, 6> kSearch_px{-5, 5, -10, 10, -15, 15};
 
-// A node that both views can show, and where the pipe's geometry puts it in the second one.
+// A node of the grid that both views can show.
 struct GridNode {
   int column = 0, row = 0;
   Eigen::Vector2i center_px;
-  Eigen::Vector2d second_px;
-  Eigen::Matrix2d second_from_first;  // local linear map
+  // Unit; how the node moves in the first view when what it shows moves along the epipolar line
+  // of the second one.
+  Eigen::Vector2d line;
 };
-
-std::optional<GridNode> PredictNode(const ArrayCalibration& array, const StereoPair& pair,
-                                    const Cylinder& pipe, const Eigen::Vector2i& center) {
-  constexpr double kStep_px = 4;
-  const auto at = [&](double dx, double dy) {
-    return TransferPixel(array, pair, pipe, center.cast<double>() + Eigen::Vector2d(dx, dy));
-  };
-  const auto middle = at(0, 0), right = at(kStep_px, 0), left = at(-kStep_px, 0);
-  const auto below = at(0, kStep_px), above = at(0, -kStep_px);
-  if (!middle || !right || !left || !below || !above) return {};
-  GridNode node;
-  node.center_px = center;
-  node.second_px = *middle;
-  node.second_from_first.col(0) = (*right - *left) / (2 * kStep_px);
-  node.second_from_first.col(1) = (*below - *above) / (2 * kStep_px);
-  return node;
-}
 
 bool Inside(const PixelRegion& region, const Eigen::Vector2d& pixel, double margin) {
   return pixel.x() >= region.x + margin && pixel.y() >= region.y + margin &&
@@ -42,19 +35,76 @@ bool Inside(const PixelRegion& region, const Eigen::Vector2d& pixel, double marg
          pixel.y() <= region.y + region.height - 1 - margin;
 }
 
-std::vector<GridNode> CommonNodes(const ArrayCalibration& array, const StereoPair& pair,
-                                  const Cylinder& pipe, const PixelRegion& first,
-                                  const PixelRegion& second, int subset_px) {
-  const int margin = subset_px / 2 + kBorder_px;
-  const int columns = (first.width - 2 * margin - 1) / subset_px + 1;
-  const int rows = (first.height - 2 * margin - 1) / subset_px + 1;
+// The transfer from the first to the second view through a pipe.
+class Transfer {
+ public:
+  Transfer(const ArrayCalibration& array, const StereoPair& pair, const Cylinder& pipe)
+      : array_(array), pair_(pair), pipe_(pipe) {}
+
+  std::optional<Eigen::Vector2d> Of(const Eigen::Vector2d& pixel) const {
+    return TransferPixel(array_, pair_, pipe_, pixel);
+  }
+
+  // Nothing where a point 4 px away is not visible.
+  std::optional<Eigen::Matrix2d> LinearAt(const Eigen::Vector2d& pixel) const {
+    constexpr double kStep_px = 4;
+    const Eigen::Vector2d x(kStep_px, 0), y(0, kStep_px);
+    const auto right = Of(pixel + x), left = Of(pixel - x), below = Of(pixel + y),
+               above = Of(pixel - y);
+    if (!right || !left || !below || !above) return {};
+    Eigen::Matrix2d linear;
+    linear << (*right - *left) / (2 * kStep_px), (*below - *above) / (2 * kStep_px);
+    return linear;
+  }
+
+  // Direction in the second view in which the image of a point moves that moves along its ray of
+  // the first view.
+  Eigen::Vector2d EpipolarDirection(const Eigen::Vector2d& pixel) const {
+    constexpr double kStep_mm = 0.1;
+    const ImageRay ray = array_.RayOf(pair_.first, pixel);
+    const auto hit = pipe_.Enter(ray.point_in_array_mm, ray.direction_in_array);
+    const Eigen::Vector3d on_surface = hit.value_or(ray.point_in_array_mm);
+    const Eigen::Vector3d step = kStep_mm * ray.direction_in_array;
+    return array_.Project(pair_.second, on_surface + step) -
+           array_.Project(pair_.second, on_surface - step);
+  }
+
+ private:
+  const ArrayCalibration& array_;
+  const StereoPair& pair_;
+  const Cylinder& pipe_;
+};
+
+// The node at a centre, if the whole subset around it is on the visible surface and in both views.
+std::optional<GridNode> NodeAt(const Transfer& transfer, const StereoImages& views,
+                               const Eigen::Vector2i& center_px) {
+  const double half_px = views.first.options().subset_px / 2;
+  const Eigen::Vector2d pixel = center_px.cast<double>();
+  for (const double y : {-half_px, 0.0, half_px})
+    for (const double x : {-half_px, 0.0, half_px}) {
+      const auto second = transfer.Of(pixel + Eigen::Vector2d(x, y));
+      if (!second || !Inside(views.second, *second, kBorder_px)) return {};
+    }
+  const auto linear = transfer.LinearAt(pixel);
+  if (!linear || std::abs(linear->determinant()) < 1e-3) return {};
+  GridNode node;
+  node.center_px = center_px;
+  node.line = (linear->inverse() * transfer.EpipolarDirection(pixel)).normalized();
+  return node;
+}
+
+std::vector<GridNode> CommonNodes(const Transfer& transfer, const StereoImages& views,
+                                  int step_px) {
+  const PixelRegion& first = views.first.region();
+  const int margin = views.first.options().subset_px / 2 + kBorder_px;
+  const int columns = (first.width - 2 * margin - 1) / step_px + 1;
+  const int rows = (first.height - 2 * margin - 1) / step_px + 1;
   std::vector<GridNode> nodes;
   for (int row = 0; row < rows; ++row)
     for (int column = 0; column < columns; ++column) {
-      const Eigen::Vector2i center(first.x + margin + column * subset_px,
-                                   first.y + margin + row * subset_px);
-      auto node = PredictNode(array, pair, pipe, center);
-      if (!node || !Inside(second, node->second_px, margin)) continue;
+      auto node = NodeAt(transfer, views,
+                         {first.x + margin + column * step_px, first.y + margin + row * step_px});
+      if (!node) continue;
       node->column = column;
       node->row = row;
       nodes.push_back(*node);
@@ -62,86 +112,82 @@ std::vector<GridNode> CommonNodes(const ArrayCalibration& array, const StereoPai
   return nodes;
 }
 
-// How far the mean of the curved transfer over a subset lies from its value at the centre: an
-// affine shape function finds the mean. Zero where the subset leaves the visible part of the pipe.
-std::optional<Eigen::Vector2d> CurvatureShift_px(const ArrayCalibration& array,
-                                                 const StereoPair& pair, const Cylinder& pipe,
-                                                 const GridNode& node, int subset_px) {
-  constexpr int kCells = 9;  // midpoint rule; leaves 1/81 of the shift
-  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-  for (int i = 0; i < kCells; ++i)
-    for (int j = 0; j < kCells; ++j) {
-      const Eigen::Vector2d offset(((i + 0.5) / kCells - 0.5) * subset_px,
-                                   ((j + 0.5) / kCells - 0.5) * subset_px);
-      const auto at = TransferPixel(array, pair, pipe, node.center_px.cast<double>() + offset);
-      if (!at) return {};
-      sum += *at - node.second_px;
+// The second view as the first one would see it: every pixel of the first region shows what the
+// transfer says. Pixels without an image get the mean grey level.
+GrayImage SeenByFirst(const Transfer& transfer, const StereoImages& views) {
+  const PixelRegion& region = views.first.region();
+  CorrelationOptions sharp = views.first.options();
+  sharp.prefilter_sigma_px = 0;
+  const PreparedImage second(views.image, views.second, sharp);
+  GrayImage seen{region.width, region.height, views.image.max_gray, {}};
+  seen.pixels.assign(static_cast<std::size_t>(region.width) * region.height, 0.f);
+  std::vector<unsigned char> known(seen.pixels.size(), 0);
+  ParallelFor(region.height, sharp.threads, [&](int y) {
+    for (int x = 0; x < region.width; ++x) {
+      const auto pixel = transfer.Of(Eigen::Vector2d(region.x + x, region.y + y));
+      if (!pixel || !Inside(views.second, *pixel, kInterpolationMargin_px)) continue;
+      seen.At(x, y) = second.Sample(pixel->x(), pixel->y());
+      known[static_cast<std::size_t>(y) * region.width + x] = 1;
     }
-  return Eigen::Vector2d(sum / (kCells * kCells));
+  });
+  const auto count = std::max<std::ptrdiff_t>(1, std::count(known.begin(), known.end(), 1));
+  const double sum = std::accumulate(seen.pixels.begin(), seen.pixels.end(), 0.0);
+  for (std::size_t i = 0; i < known.size(); ++i)
+    if (!known[i]) seen.pixels[i] = static_cast<float>(sum / static_cast<double>(count));
+  return seen;
 }
 
-// A region of an image turned or mirrored onto a grid of its own that starts at (0, 0).
-struct OrientedRegion {
-  GrayImage image;
-  Eigen::Matrix2d turn;            // signed permutation
-  Eigen::Vector2d from_middle_px;  // of the region on the sensor
-  Eigen::Vector2d to_middle_px;    // of the oriented image
+// What is matched: the first view's grid in the second view as the first one would see it.
+class PairMatcher {
+ public:
+  PairMatcher(const Transfer& transfer, const StereoImages& views)
+      : first_(views.first),
+        seen_origin_px_(views.first.region().x, views.first.region().y),
+        seen_(SeenByFirst(transfer, views),
+              {0, 0, views.first.region().width, views.first.region().height},
+              views.first.options()) {}
 
-  Eigen::Vector2d ToOriented(const Eigen::Vector2d& pixel) const {
-    return turn * (pixel - from_middle_px) + to_middle_px;
+  std::vector<SubsetMatch> Match(const std::vector<GridNode>& nodes) const {
+    std::vector<Eigen::Vector2i> centers;
+    for (const GridNode& node : nodes) centers.push_back(node.center_px);
+    return CorrelatePoints(first_, centers, seen_, {StartAt({0, 0})});
   }
-  Eigen::Vector2d ToSensor(const Eigen::Vector2d& pixel) const {
-    return turn.transpose() * (pixel - to_middle_px) + from_middle_px;
-  }
-  PixelRegion Region() const { return {0, 0, image.width, image.height}; }
-};
 
-// The signed permutation that brings `map` nearest to the identity.
-Eigen::Matrix2d NearestSymmetry(const Eigen::Matrix2d& map) {
-  Eigen::Matrix2d best = Eigen::Matrix2d::Identity();
-  double best_trace = -1e9;
-  for (const bool swap : {false, true})
-    for (const double x : {1.0, -1.0})
-      for (const double y : {1.0, -1.0}) {
-        Eigen::Matrix2d turn = Eigen::Matrix2d::Zero();
-        turn(0, swap ? 1 : 0) = x;
-        turn(1, swap ? 0 : 1) = y;
-        const double trace = (turn * map).trace();
-        if (trace <= best_trace) continue;
-        best_trace = trace;
-        best = turn;
+  // Looks for the nodes that do not match along their epipolar lines; how many were found.
+  int Search(const std::vector<GridNode>& nodes, std::vector<SubsetMatch>& found) const {
+    std::vector<std::size_t> failed;
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      if (!found[i].ok() && found[i].status != MatchStatus::kLowContrast) failed.push_back(i);
+    ParallelFor(static_cast<int>(failed.size()), first_.options().threads, [&](int k) {
+      const std::size_t i = failed[static_cast<std::size_t>(k)];
+      for (const double along_px : kSearch_px) {
+        const SubsetMatch match =
+            first_.Match(nodes[i].center_px, seen_, StartAt(along_px * nodes[i].line));
+        if (!match.ok()) continue;
+        found[i] = match;
+        return;
       }
-  return best;
-}
+    });
+    return static_cast<int>(
+        std::count_if(failed.begin(), failed.end(), [&](std::size_t i) { return found[i].ok(); }));
+  }
 
-OrientedRegion Orient(const GrayImage& image, const PixelRegion& region,
-                      const Eigen::Matrix2d& turn) {
-  OrientedRegion oriented;
-  oriented.turn = turn;
-  const bool swap = turn(0, 0) == 0;
-  oriented.image.width = swap ? region.height : region.width;
-  oriented.image.height = swap ? region.width : region.height;
-  oriented.image.max_gray = image.max_gray;
-  oriented.from_middle_px = region.Middle();
-  oriented.to_middle_px = oriented.Region().Middle();
-  oriented.image.pixels.resize(static_cast<std::size_t>(region.width) *
-                               static_cast<std::size_t>(region.height));
-  const Eigen::Vector2i origin = oriented.ToSensor({0, 0}).array().round().cast<int>();
-  const Eigen::Matrix2i step = turn.transpose().cast<int>();
-  for (int y = 0; y < oriented.image.height; ++y)
-    for (int x = 0; x < oriented.image.width; ++x) {
-      const Eigen::Vector2i from = origin + step * Eigen::Vector2i(x, y);
-      oriented.image.At(x, y) = image.At(from.x(), from.y());
-    }
-  return oriented;
-}
+  // Where in the first view the transfer starts that ends at the match.
+  Eigen::Vector2d Matched_px(const GridNode& node, const SubsetMatch& match) const {
+    return node.center_px.cast<double>() + match.shape.displacement_px + seen_origin_px_;
+  }
 
-Eigen::Matrix2d MeanMap(const std::vector<GridNode>& nodes) {
-  Eigen::Matrix2d mean = Eigen::Matrix2d::Zero();
-  for (const GridNode& node : nodes)
-    mean += node.second_from_first / static_cast<double>(nodes.size());
-  return mean;
-}
+ private:
+  ShapeFunction StartAt(const Eigen::Vector2d& displacement_px) const {
+    ShapeFunction start;
+    start.displacement_px = displacement_px - seen_origin_px_;
+    return start;
+  }
+
+  const CorrelationReference& first_;
+  Eigen::Vector2d seen_origin_px_;  // the image as seen begins at (0, 0)
+  PreparedImage seen_;
+};
 
 bool OnEpipolarLine(const ArrayCalibration& array, const StereoPair& pair,
                     const StereoMatch& match) {
@@ -154,41 +200,30 @@ bool OnEpipolarLine(const ArrayCalibration& array, const StereoPair& pair,
 }  // namespace
 
 StereoMatches MatchAcross(const ArrayCalibration& array, const StereoPair& pair,
-                          const Cylinder& pipe, const GrayImage& image,
-                          const CorrelationReference& first, const PixelRegion& second) {
-  const std::vector<GridNode> nodes =
-      CommonNodes(array, pair, pipe, first.region(), second, first.options().subset_px);
+                          const Cylinder& pipe, const StereoImages& views, int step_px) {
+  const Transfer transfer(array, pair, pipe);
+  const std::vector<GridNode> nodes = CommonNodes(transfer, views, step_px);
   StereoMatches matches;
   matches.nodes = static_cast<int>(nodes.size());
   if (nodes.empty()) return matches;
-  const Eigen::Matrix2d mean = MeanMap(nodes);
-  const OrientedRegion oriented = Orient(image, second, NearestSymmetry(mean));
-  std::vector<Eigen::Vector2i> centers;
-  std::vector<ShapeFunction> starts;
-  for (const GridNode& node : nodes) {
-    centers.push_back(node.center_px);
-    starts.push_back({oriented.ToOriented(node.second_px) - node.center_px.cast<double>(),
-                      oriented.turn * node.second_from_first - Eigen::Matrix2d::Identity()});
-  }
-  // The second view sees the pattern stretched; its blur is stretched alike.
-  const PreparedImage prepared(oriented.image, oriented.Region(), first.options(),
-                               oriented.turn * mean - Eigen::Matrix2d::Identity());
-  const std::vector<SubsetMatch> found = CorrelatePoints(first, centers, prepared, starts);
+  const PairMatcher matcher(transfer, views);
+  std::vector<SubsetMatch> found = matcher.Match(nodes);
+  matches.found_by_search = matcher.Search(nodes, found);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     if (!found[i].ok()) {
       ++matches.rejected["between the views: " + ToText(found[i].status)];
       continue;
     }
-    const auto shift = CurvatureShift_px(array, pair, pipe, nodes[i], first.options().subset_px);
-    if (!shift) {
+    const Eigen::Vector2d matched = matcher.Matched_px(nodes[i], found[i]);
+    const auto second = transfer.Of(matched);
+    const auto linear = transfer.LinearAt(matched);
+    if (!second || !linear) {
       ++matches.rejected["between the views: at the edge of the visible surface"];
       continue;
     }
-    StereoMatch match{
-        nodes[i].column, nodes[i].row, nodes[i].center_px,
-        oriented.ToSensor(nodes[i].center_px.cast<double>() + found[i].shape.displacement_px) -
-            *shift,
-        oriented.turn.transpose() * found[i].covariance.topLeftCorner<2, 2>() * oriented.turn};
+    const StereoMatch match{
+        nodes[i].column, nodes[i].row, nodes[i].center_px, *second,
+        *linear * found[i].covariance.topLeftCorner<2, 2>() * linear->transpose()};
     if (OnEpipolarLine(array, pair, match))
       matches.found.push_back(match);
     else

@@ -21,14 +21,23 @@ struct StereoMatches {
   std::vector<StereoMatch> found;
   std::map<std::string, int> rejected;  // reason -> nodes that both views show but do not match
   int nodes = 0;
+  int found_by_search = 0;  // of those found: along the epipolar line, not where the pipe says
 };
 
-// Matches a grid of subsets (step = subset) of the first view to the second one, predicted by the
-// located pipe. The views may see the pattern turned or mirrored: the second image is first brought
-// to the grid symmetry (of the eight) that is nearest to the first one, which moves whole pixels
-// only.
+// The two views of one image that are matched.
+struct StereoImages {
+  const GrayImage& image;
+  const CorrelationReference& first;
+  const PixelRegion& second;
+};
+
+// Matches a grid of subsets, `step_px` apart, of the first view to the second one. The second image
+// is first drawn as the first view would see it if the surface were `pipe`: what is left to match
+// is what the pipe does not say, without the turn, stretch and bend between the views, and both
+// images are blurred alike on the surface. A subset that does not match is searched for along the
+// epipolar line. Only subsets that lie wholly on the part of the pipe that both views show count as
+// nodes.
 StereoMatches MatchAcross(const ArrayCalibration& array, const StereoPair& pair,
-                          const Cylinder& pipe, const GrayImage& image,
-                          const CorrelationReference& first, const PixelRegion& second);
+                          const Cylinder& pipe, const StereoImages& views, int step_px);
 
 }  // namespace telestrain

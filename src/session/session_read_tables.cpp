@@ -9,6 +9,7 @@
 #include "base/csv.h"
 #include "base/files.h"
 #include "base/numbers.h"
+#include "session/pipe_table.h"
 #include "session/session_parts.h"
 
 namespace telestrain {
@@ -226,20 +227,16 @@ Status CheckGaugeColumns(const Session& session, const TableReader& table) {
   return {};
 }
 
-Status ReadPipeTable(Session& session, SeenImages& seen) {
-  const fs::path path = session.folder / "pipe.csv";
-  if (!IsThere(path)) return {};
-  TELESTRAIN_ASSIGN_OR_RETURN(
-      const TableReader table,
-      OpenTable(path, {{"image", "cycle", "step"}, {"time_s", "temperature_c"}, true}));
-  TELESTRAIN_RETURN_IF_ERROR(
-      RequireArtefact(session, table, session.pipe.outer_diameter_mm > 0, "pipe"));
+// `images_are_there`: whether every image must lie in `folder` already.
+Status FillPipeStates(const TableReader& table, const fs::path& folder, bool images_are_there,
+                      SeenImages& seen, Session& session) {
+  session.gauge_columns.clear();
+  session.pipe_states.clear();
   std::copy_if(table.table().columns.begin(), table.table().columns.end(),
                std::back_inserter(session.gauge_columns), IsGaugeColumn);
-  TELESTRAIN_RETURN_IF_ERROR(CheckGaugeColumns(session, table));
   for (int row = 0; row < table.size(); ++row) {
     PipeState& state = session.pipe_states.emplace_back();
-    TELESTRAIN_ASSIGN_OR_RETURN(state.image, ReadImage(table, row, session.folder, seen));
+    TELESTRAIN_ASSIGN_OR_RETURN(state.image, ReadImage(table, row, folder, seen, images_are_there));
     state.cycle = table.Cell(row, "cycle");
     state.step = table.Cell(row, "step");
     TELESTRAIN_ASSIGN_OR_RETURN(state.time_s, table.OptionalNumber(row, "time_s"));
@@ -252,6 +249,20 @@ Status ReadPipeTable(Session& session, SeenImages& seen) {
   return {};
 }
 
+Result<TableReader> OpenPipeTable(const fs::path& path) {
+  return OpenTable(path, {{"image", "cycle", "step"}, {"time_s", "temperature_c"}, true});
+}
+
+Status ReadPipeTable(Session& session, SeenImages& seen) {
+  const fs::path path = session.folder / "pipe.csv";
+  if (!IsThere(path)) return {};
+  TELESTRAIN_ASSIGN_OR_RETURN(const TableReader table, OpenPipeTable(path));
+  TELESTRAIN_RETURN_IF_ERROR(
+      RequireArtefact(session, table, session.pipe.outer_diameter_mm > 0, "pipe"));
+  TELESTRAIN_RETURN_IF_ERROR(CheckGaugeColumns(session, table));
+  return FillPipeStates(table, session.folder, true, seen, session);
+}
+
 }  // namespace
 
 Status ReadTables(Session& session) {
@@ -259,6 +270,14 @@ Status ReadTables(Session& session) {
   TELESTRAIN_RETURN_IF_ERROR(ReadCalibrationTable(session, seen));
   TELESTRAIN_RETURN_IF_ERROR(ReadRulerTable(session, seen));
   return ReadPipeTable(session, seen);
+}
+
+Result<std::vector<PipeState>> ReadPipeStates(const fs::path& table) {
+  TELESTRAIN_ASSIGN_OR_RETURN(const TableReader reader, OpenPipeTable(table));
+  Session holder;
+  SeenImages seen;
+  TELESTRAIN_RETURN_IF_ERROR(FillPipeStates(reader, table.parent_path(), false, seen, holder));
+  return std::move(holder.pipe_states);
 }
 
 }  // namespace telestrain

@@ -93,7 +93,7 @@ Result<ImageOutcome> RunImageExperiment(const VirtualExperimentOptions& options,
                             outcome.rulers.front().rejected_because);
   if (outcome.truth.pipe.empty()) return outcome;
   outcome.true_axial_microstrain = TrueAxial_microstrain(outcome.truth);
-  CorrelationOptions correlation = DefaultPipeOptions(outcome.session);
+  PipeOptions correlation = DefaultPipeOptions(outcome.session);
   correlation.threads = options.threads;
   TELESTRAIN_ASSIGN_OR_RETURN(outcome.pipe,
                               MeasurePipe(outcome.session, array, correlation, console));

@@ -24,4 +24,8 @@ Result<GrayImage> ReadGrayImage(const std::filesystem::path& path, int width_px 
 Result<GrayImage> DecodeGrayImage(const std::string& name, const std::string& bytes,
                                   int width_px = 0, int height_px = 0);
 
+// The same from the bytes of such a file; `name` stands for it in the message.
+Result<GrayImage> DecodeGrayImage(const std::string& name, const std::string& bytes,
+                                  int width_px = 0, int height_px = 0);
+
 }  // namespace telestrain

@@ -2,6 +2,8 @@
 
 #include <fcntl.h>
 #include <sched.h>
+#include <signal.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -62,23 +64,66 @@ void UseOneProcessor() {
   ::_exit(127);
 }
 
+std::vector<std::string> WordsOf(const std::vector<std::string>& arguments) {
+  std::vector<std::string> words{TelestrainPath().string()};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  return words;
+}
+
 }  // namespace
 
+struct RunningTelestrain::Child {
+  Catch out, err;
+  pid_t id = -1;
+  bool ended = false;
+  ProgramRun run;
+
+  Child(const std::vector<std::string>& words, const Surroundings& where) {
+    id = ::fork();
+    if (id < 0) throw std::runtime_error("no new process");
+    if (id == 0) Become(words, where, out, err);
+  }
+  void Wait(int options) {
+    int status = 0;
+    rusage used{};
+    if (ended || ::wait4(id, &status, options, &used) != id) return;
+    ended = true;
+    const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    run = {code, out.Text(), err.Text(), used.ru_maxrss};
+  }
+};
+
+RunningTelestrain::RunningTelestrain(const std::vector<std::string>& arguments)
+    : child_(std::make_unique<Child>(WordsOf(arguments), Surroundings{})) {}
+
+RunningTelestrain::~RunningTelestrain() {
+  if (HasEnded()) return;
+  Signal(SIGKILL);
+  Wait();
+}
+
+bool RunningTelestrain::HasEnded() {
+  child_->Wait(WNOHANG);
+  return child_->ended;
+}
+
+void RunningTelestrain::Signal(int number) const {
+  if (!child_->ended) ::kill(child_->id, number);
+}
+
+ProgramRun RunningTelestrain::Wait() {
+  child_->Wait(0);
+  return child_->run;
+}
+
 ProgramRun RunProgram(const std::vector<std::string>& words, const Surroundings& where) {
-  const Catch out, err;
-  const pid_t child = ::fork();
-  if (child < 0) throw std::runtime_error("no new process");
-  if (child == 0) Become(words, where, out, err);
-  int status = 0;
-  ::waitpid(child, &status, 0);
-  const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  return {code, out.Text(), err.Text()};
+  RunningTelestrain::Child child(words, where);
+  child.Wait(0);
+  return child.run;
 }
 
 ProgramRun RunTelestrain(const std::vector<std::string>& arguments, const Surroundings& where) {
-  std::vector<std::string> words{TelestrainPath().string()};
-  words.insert(words.end(), arguments.begin(), arguments.end());
-  return RunProgram(words, where);
+  return RunProgram(WordsOf(arguments), where);
 }
 
 fs::path TelestrainPath() { return TELESTRAIN_PROGRAM; }

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,6 +14,7 @@ struct ProgramRun {
   int exit_code = -1;
   std::string out;
   std::string err;
+  long peak_memory_kib = 0;  // resident
 };
 
 // Where the program runs.
@@ -27,6 +29,23 @@ ProgramRun RunTelestrain(const std::vector<std::string>& arguments, const Surrou
 
 // The same for any program; the first word is its path.
 ProgramRun RunProgram(const std::vector<std::string>& words, const Surroundings& where = {});
+
+// The telestrain of this build, running beside the test.
+class RunningTelestrain {
+ public:
+  explicit RunningTelestrain(const std::vector<std::string>& arguments);
+  ~RunningTelestrain();  // kills it if it still runs
+  RunningTelestrain(const RunningTelestrain&) = delete;
+  RunningTelestrain& operator=(const RunningTelestrain&) = delete;
+  bool HasEnded();
+  void Signal(int number) const;
+  ProgramRun Wait();
+
+  struct Child;
+
+ private:
+  std::unique_ptr<Child> child_;
+};
 
 // Path of the telestrain of this build.
 std::filesystem::path TelestrainPath();

@@ -38,7 +38,7 @@ TEST_F(RunFiles, EveryFileOfTheResultsTableIsThere) {
   for (const char* name :
        {"inputs.json", "corners.vnl", "corner_covariances.csv", "detection.json",
         "calibration.json", "residuals.csv", "ruler.csv", "ruler.json", "strain.csv", "strain.json",
-        "pipe_000.vtp", "pipe_001.vtp", "pipe_002.vtp", "pictures/array.png",
+        "strain_states.jsonl", "pipe_000.vtp", "pipe_001.vtp", "pipe_002.vtp", "pictures/array.png",
         "pictures/targets.png", "pictures/pipe_strain.png", "results.json", "report.pdf"}) {
     ASSERT_TRUE(bytes.contains(name)) << name;
     EXPECT_FALSE(bytes.at(name).empty()) << name;

@@ -62,11 +62,11 @@ struct Scene {
 
   Measured Measure(bool aware) const {
     const ArrayCalibration array = TrueCalibration(instrument, aware);
-    CorrelationOptions correlation;
+    PipeOptions correlation;
     correlation.subset_px = 17;
     const PipeTracker tracker = PipeTracker::Start(session, array, reference, correlation).value();
     const auto analyse = [&](const GrayImage& image) {
-      return AnalyseState(array, tracker.grid(), tracker.Track(image)).value();
+      return AnalyseState(array, tracker.grid(), tracker.Track(image).points).value();
     };
     return {2 * tracker.grid().pipe.radius_mm, analyse(raised), analyse(stretched)};
   }

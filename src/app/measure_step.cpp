@@ -1,0 +1,193 @@
+#include <csignal>
+#include <nlohmann/json.hpp>
+
+#include "app/results_folder.h"
+#include "app/steps.h"
+#include "app/strain_journal.h"
+#include "app/watched_folder.h"
+#include "base/files.h"
+#include "base/json_file.h"
+#include "base/numbers.h"
+#include "measurement/pipe_file.h"
+#include "target/image_file.h"
+
+namespace telestrain {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kSmallestSubset_px = 9, kLargestSubset_px = 301;
+
+// The rows of the session's table.
+class TabledImages : public PipeStream {
+ public:
+  TabledImages(const Session& session, std::map<std::string, std::string> hashes,
+               StrainJournal& journal, Console& console)
+      : session_(session), hashes_(std::move(hashes)), journal_(journal), console_(console) {}
+
+  Result<std::optional<PipeImage>> Next() override {
+    if (row_ == session_.pipe_states.size()) return std::optional<PipeImage>{};
+    PipeImage next;
+    next.table = session_.pipe_states[row_];
+    next.sha256 = hashes_.at(next.table.image);
+    if (all_known_) next.known = journal_.Known(row_, next.table, next.sha256);
+    all_known_ = next.known.has_value();
+    if (row_ == 0 || !next.known) {
+      TELESTRAIN_ASSIGN_OR_RETURN(
+          next.image, ReadGrayImage(session_.folder / next.table.image, session_.sensor.width_px,
+                                    session_.sensor.height_px));
+    }
+    ++row_;
+    return std::optional<PipeImage>(std::move(next));
+  }
+
+  Status Keep(const PipeSequence& sequence, const PipeImage& image, const MeasuredState& state,
+              double) override {
+    TELESTRAIN_RETURN_IF_ERROR(journal_.Add(sequence, image, state));
+    console_.Progress("measuring", ++kept_, static_cast<int>(session_.pipe_states.size()));
+    return {};
+  }
+
+ private:
+  const Session& session_;
+  const std::map<std::string, std::string> hashes_;
+  StrainJournal& journal_;
+  Console& console_;
+  std::size_t row_ = 0;
+  bool all_known_ = true;
+  int kept_ = 0;
+};
+
+WatchedFolder* watched_folder = nullptr;
+
+// Lets the watch end when the person or the system says so, with everything written.
+class StopOnSignal {
+ public:
+  explicit StopOnSignal(WatchedFolder& watched) {
+    watched_folder = &watched;
+    struct sigaction action {};
+    action.sa_handler = [](int) { watched_folder->Stop(); };
+    ::sigaction(SIGINT, &action, &before_[0]);
+    ::sigaction(SIGTERM, &action, &before_[1]);
+  }
+  ~StopOnSignal() {
+    ::sigaction(SIGINT, &before_[0], nullptr);
+    ::sigaction(SIGTERM, &before_[1], nullptr);
+    watched_folder = nullptr;
+  }
+  StopOnSignal(const StopOnSignal&) = delete;
+  StopOnSignal& operator=(const StopOnSignal&) = delete;
+
+ private:
+  struct sigaction before_[2]{};
+};
+
+PipeOptions OptionsOf(const Session& session, const MeasureChoices& choices) {
+  PipeOptions options = DefaultPipeOptions(session);
+  if (choices.subset_px > 0) options.subset_px = choices.subset_px;
+  options.step_px = choices.step_px;
+  return options;
+}
+
+// What every state depends on beside the images.
+Result<std::map<std::string, std::string>> MadeFrom(const Session& session, const fs::path& results,
+                                                    const PipeOptions& options) {
+  TELESTRAIN_ASSIGN_OR_RETURN(auto made_from, HashesOf(results, {"calibration.json"}));
+  TELESTRAIN_ASSIGN_OR_RETURN(made_from["session.toml"],
+                              Sha256HexOfFile(session.folder / "session.toml"));
+  made_from["options"] = PipeOptionsText(options);
+  made_from["program"] = TELESTRAIN_VERSION;
+  return made_from;
+}
+
+Result<PipeMeasurement> MeasureTable(const Session& session, const fs::path& results,
+                                     const PipeOptions& options, Console& console) {
+  TELESTRAIN_ASSIGN_OR_RETURN(const ArrayCalibration array, LoadCalibration(session, results));
+  TELESTRAIN_ASSIGN_OR_RETURN(const auto made_from, MadeFrom(session, results, options));
+  TELESTRAIN_ASSIGN_OR_RETURN(auto hashes, RecordedHashes(results));
+  TELESTRAIN_ASSIGN_OR_RETURN(StrainJournal journal, StrainJournal::Open(results, made_from));
+  TabledImages images(session, std::move(hashes), journal, console);
+  TELESTRAIN_ASSIGN_OR_RETURN(PipeMeasurement measurement,
+                              MeasureStream(session, array, options, images));
+  TELESTRAIN_RETURN_IF_ERROR(journal.Finish());
+  return measurement;
+}
+
+Result<PipeMeasurement> MeasureWatched(const Session& session, const fs::path& results,
+                                       const PipeOptions& options, const WatchChoices& choices,
+                                       Console& console) {
+  TELESTRAIN_ASSIGN_OR_RETURN(const ArrayCalibration array, LoadCalibration(session, results));
+  TELESTRAIN_ASSIGN_OR_RETURN(const auto made_from, MadeFrom(session, results, options));
+  TELESTRAIN_ASSIGN_OR_RETURN(StrainJournal journal, StrainJournal::Open(results, made_from));
+  WatchedFolder images(choices, session, journal, console);
+  const StopOnSignal stop(images);
+  TELESTRAIN_ASSIGN_OR_RETURN(PipeMeasurement measurement,
+                              MeasureStream(session, array, options, images));
+  TELESTRAIN_RETURN_IF_ERROR(journal.Finish());
+  return measurement;
+}
+
+Status WriteMeasurement(const PipeMeasurement& measurement, const fs::path& results,
+                        Console& console) {
+  TELESTRAIN_ASSIGN_OR_RETURN(
+      const auto made_from,
+      HashesOf(results, {"inputs.json", "calibration.json", "strain_states.jsonl"}));
+  TELESTRAIN_RETURN_IF_ERROR(
+      WriteJson(results / "strain.json", StrainJson(measurement, made_from)));
+  console.Say("measure    " + CountText(measurement.states.size(), "state") + ", " +
+              CountText(measurement.grid.points.size(), "surface point") + ", pipe diameter " +
+              FormatFixed(2 * measurement.grid.pipe.radius_mm, 4) + " mm");
+  return {};
+}
+
+Error OutOfRange(const std::string& what) { return {ErrorKind::kUsage, what}; }
+
+}  // namespace
+
+Result<MeasureChoices> ReadChoices(const MeasureArguments& arguments) {
+  const int subset_px = arguments.subset_px;
+  if (subset_px != 0 &&
+      (subset_px < kSmallestSubset_px || subset_px > kLargestSubset_px || subset_px % 2 == 0))
+    return OutOfRange("--subset-px " + std::to_string(subset_px) + ": an odd number from " +
+                      std::to_string(kSmallestSubset_px) + " to " +
+                      std::to_string(kLargestSubset_px) + " is wanted");
+  if (arguments.step_px < 0)
+    return OutOfRange("--step-px " + std::to_string(arguments.step_px) +
+                      ": the distance between subsets is at least 1 px");
+  if (arguments.until < 0 || arguments.idle_s < 0)
+    return OutOfRange("--until and --idle-s must not be negative");
+  MeasureChoices choices{subset_px, arguments.step_px, {}};
+  if (arguments.watch.empty()) return choices;
+  std::error_code code;
+  if (!fs::is_directory(arguments.watch, code))
+    return OutOfRange("--watch " + arguments.watch +
+                      ": is no folder; make it before the images arrive");
+  choices.watch = WatchChoices{arguments.watch, arguments.until, arguments.idle_s};
+  return choices;
+}
+
+Status MeasureStep(const Session& session, const fs::path& results, const MeasureChoices& choices,
+                   Console& console) {
+  const PipeOptions options = OptionsOf(session, choices);
+  if (choices.watch) {
+    TELESTRAIN_ASSIGN_OR_RETURN(const PipeMeasurement measurement,
+                                MeasureWatched(session, results, options, *choices.watch, console));
+    return WriteMeasurement(measurement, results, console);
+  }
+  if (session.pipe_states.empty()) {
+    TELESTRAIN_RETURN_IF_ERROR(LoadCalibration(session, results));
+    TELESTRAIN_RETURN_IF_ERROR(RemoveOutputsFrom(results, Step::kMeasure));
+    console.Say("measure    the session has no pipe images");
+    return {};
+  }
+  TELESTRAIN_ASSIGN_OR_RETURN(const PipeMeasurement measurement,
+                              MeasureTable(session, results, options, console));
+  TELESTRAIN_RETURN_IF_ERROR(WriteMeasurement(measurement, results, console));
+  for (const MeasuredState& state : measurement.states)
+    console.Note("  " + state.table.image + ": " + FormatFixed(1e6 * state.strain.axial_strain, 2) +
+                 " +- " + FormatFixed(1e6 * state.strain.standard_uncertainty, 2) +
+                 " microstrain (standard uncertainty)");
+  return {};
+}
+
+}  // namespace telestrain
