@@ -14,6 +14,9 @@ constexpr std::size_t kFewestGauges = 3, kFewestLoadedStates = 3;
 
 std::optional<double> ChangeOf(const PipeState& reference, const PipeState& state,
                                std::size_t gauge) {
+  // A state that came while watching may stand in no table.
+  if (gauge >= std::min(state.gauges_microstrain.size(), reference.gauges_microstrain.size()))
+    return {};
   if (!state.gauges_microstrain[gauge] || !reference.gauges_microstrain[gauge]) return {};
   return *state.gauges_microstrain[gauge] - *reference.gauges_microstrain[gauge];
 }

@@ -93,7 +93,7 @@ struct PipeSpec {
   double sigma_temperature_k = 0;            // of one reading of temperature_c
   std::vector<PipeGauge> gauges = {};        // those whose place is known
   // Standard uncertainty of one reading of one strain gauge.
-  std::optional<double> sigma_gauge_microstrain;
+  std::optional<double> sigma_gauge_microstrain = {};
 };
 
 enum class DecisionRule { kGuarded, kSimple };

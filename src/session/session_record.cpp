@@ -101,19 +101,51 @@ AcceptanceSpec AcceptanceOf(const Json& json) {
   return acceptance;
 }
 
+Json GaugesJson(const std::vector<PipeGauge>& gauges) {
+  Json json = Json::array();
+  for (const PipeGauge& gauge : gauges)
+    json.push_back({{"column", gauge.column},
+                    {"axial_mm", gauge.axial_mm},
+                    {"angle_rad", gauge.angle_rad},
+                    {"length_mm", gauge.length_mm},
+                    {"sigma_microstrain", gauge.sigma_microstrain},
+                    {"sigma_angle_rad", gauge.sigma_angle_rad},
+                    {"reads_thermal_strain", gauge.reads_thermal_strain}});
+  return json;
+}
+
+std::vector<PipeGauge> GaugesOf(const Json& json) {
+  std::vector<PipeGauge> gauges;
+  for (const Json& gauge : json)
+    gauges.push_back({gauge.at("column").get<std::string>(), gauge.at("axial_mm").get<double>(),
+                      gauge.at("angle_rad").get<double>(), gauge.at("length_mm").get<double>(),
+                      gauge.at("sigma_microstrain").get<double>(),
+                      gauge.at("sigma_angle_rad").get<double>(),
+                      gauge.at("reads_thermal_strain").get<bool>()});
+  return gauges;
+}
+
 Json PipeJson(const PipeSpec& pipe) {
   Json json{{"outer_diameter_mm", pipe.outer_diameter_mm},
             {"poisson_ratio", pipe.poisson_ratio},
-            {"material", pipe.material}};
+            {"material", pipe.material},
+            {"thermal_expansion_per_k", pipe.thermal_expansion_per_k},
+            {"sigma_thermal_expansion_per_k", pipe.sigma_thermal_expansion_per_k},
+            {"sigma_temperature_k", pipe.sigma_temperature_k},
+            {"gauges", GaugesJson(pipe.gauges)}};
   if (pipe.sigma_gauge_microstrain) json["sigma_gauge_microstrain"] = *pipe.sigma_gauge_microstrain;
   return json;
 }
 
 PipeSpec PipeOf(const Json& json) {
-  PipeSpec pipe{json.at("outer_diameter_mm").get<double>(),
-                json.at("poisson_ratio").get<double>(),
-                json.at("material").get<std::string>(),
-                {}};
+  PipeSpec pipe;
+  pipe.outer_diameter_mm = json.at("outer_diameter_mm").get<double>();
+  pipe.poisson_ratio = json.at("poisson_ratio").get<double>();
+  pipe.material = json.at("material").get<std::string>();
+  pipe.thermal_expansion_per_k = json.at("thermal_expansion_per_k").get<double>();
+  pipe.sigma_thermal_expansion_per_k = json.at("sigma_thermal_expansion_per_k").get<double>();
+  pipe.sigma_temperature_k = json.at("sigma_temperature_k").get<double>();
+  pipe.gauges = GaugesOf(json.at("gauges"));
   if (json.contains("sigma_gauge_microstrain"))
     pipe.sigma_gauge_microstrain = json.at("sigma_gauge_microstrain").get<double>();
   return pipe;

@@ -20,11 +20,8 @@ Status CheckImageBytes(const std::string& name, std::string_view bytes, int widt
 // one; the message names file, found and wanted size.
 Result<GrayImage> ReadGrayImage(const std::filesystem::path& path, int width_px = 0,
                                 int height_px = 0);
-// The same of an image file's bytes; `name` stands for the file in messages.
-Result<GrayImage> DecodeGrayImage(const std::string& name, const std::string& bytes,
-                                  int width_px = 0, int height_px = 0);
 
-// The same from the bytes of such a file; `name` stands for it in the message.
+// The same of an image file's bytes; `name` stands for the file in messages.
 Result<GrayImage> DecodeGrayImage(const std::string& name, const std::string& bytes,
                                   int width_px = 0, int height_px = 0);
 
