@@ -178,12 +178,16 @@ void FilterSeparable(const ImageView& view, const std::vector<float>& kernel_x,
   });
 }
 
-GrayImage Blur(const GrayImage& image, const std::vector<float>& kernel) {
-  if (kernel.size() == 1) return image;
+GrayImage Filtered(const GrayImage& image, const std::vector<float>& kernel_x,
+                   const std::vector<float>& kernel_y) {
   GrayImage out = EmptyLike(image);
   const PixelRegion whole{0, 0, image.width, image.height};
-  FilterSeparable(View(image, whole), kernel, kernel, whole, 1, out.pixels.data(), image.width);
+  FilterSeparable(View(image, whole), kernel_x, kernel_y, whole, 1, out.pixels.data(), image.width);
   return out;
+}
+
+GrayImage Blur(const GrayImage& image, const std::vector<float>& kernel) {
+  return kernel.size() == 1 ? image : Filtered(image, kernel, kernel);
 }
 
 double NoiseVarianceAfter(const std::vector<float>& weights) {

@@ -40,6 +40,9 @@ void FilterSeparable(const ImageView& view, const std::vector<float>& kernel_x,
                      const std::vector<float>& kernel_y, const PixelRegion& part, int threads,
                      float* out, std::ptrdiff_t out_stride);
 
+// A whole image of at least 8 px a side, on one thread.
+GrayImage Filtered(const GrayImage& image, const std::vector<float>& kernel_x,
+                   const std::vector<float>& kernel_y);
 // Both directions with the same kernel.
 GrayImage Blur(const GrayImage& image, const std::vector<float>& kernel);
 

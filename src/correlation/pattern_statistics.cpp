@@ -77,7 +77,7 @@ class PatternMeter {
   static double Squares(const GrayImage& image, const PixelRegion& inner,
                         const std::vector<char>& counts) {
     double sum = 0;
-    for (const GrayImage& slope : {FilterRows(image, kSlope), FilterColumns(image, kSlope)})
+    for (const GrayImage& slope : {Filtered(image, kSlope, {1.f}), Filtered(image, {1.f}, kSlope)})
       for (int k = 0; k < inner.width * inner.height; ++k) {
         const float value = slope.At(inner.x + k % inner.width, inner.y + k / inner.width);
         if (counts[k]) sum += static_cast<double>(value) * value;
