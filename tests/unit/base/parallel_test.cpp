@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <latch>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace telestrain {
@@ -37,6 +39,53 @@ TEST(ParallelForTest, ThrowsTheFirstExceptionByIndexAfterAllEnded) {
     }
     EXPECT_EQ(calls, 50);
   }
+}
+
+TEST(ParallelForTest, ACallWithinACallIsHandledOnItsThread) {
+  std::vector<std::vector<int>> calls(20, std::vector<int>(30));
+  ParallelFor(20, 4, [&](int i) {
+    const auto outer = std::this_thread::get_id();
+    ParallelFor(30, 4, [&](int k) {
+      EXPECT_EQ(std::this_thread::get_id(), outer);
+      ++calls[i][k];
+    });
+  });
+  EXPECT_EQ(calls, std::vector(20, std::vector<int>(30, 1)));
+}
+
+// All indices wait for each other: with fewer threads the call would never end.
+void ExpectThreads(int threads) {
+  std::latch all_there(threads);
+  ParallelFor(threads, threads, [&](int) { all_there.arrive_and_wait(); });
+}
+
+TEST(ParallelForTest, WorksOnAsManyThreadsAsAsked) {
+  for (const int threads : {2, 5, 2, 7}) ExpectThreads(threads);
+}
+
+TEST(ParallelForTest, AnOuterCallOfOneIndexLeavesTheThreadsToTheInnerOne) {
+  ParallelFor(1, 4, [](int) { ExpectThreads(3); });
+  ParallelFor(5, 1, [](int) { ExpectThreads(3); });
+}
+
+TEST(ParallelForTest, AfterAnExceptionThreadsAreThereAgain) {
+  EXPECT_THROW(ParallelFor(4, 4, [](int) { throw std::runtime_error("no"); }), std::runtime_error);
+  ExpectThreads(4);
+}
+
+TEST(ParallelForTest, CallsFromSeveralThreadsDoNotMix) {
+  std::vector<std::jthread> callers;
+  std::atomic<int> wrong = 0;
+  for (int caller = 0; caller < 4; ++caller)
+    callers.emplace_back([&] {
+      for (int round = 0; round < 300; ++round) {
+        std::vector<int> calls(7);
+        ParallelFor(7, 3, [&](int i) { ++calls[static_cast<std::size_t>(i)]; });
+        wrong += calls != std::vector<int>(7, 1);
+      }
+    });
+  callers.clear();
+  EXPECT_EQ(wrong, 0);
 }
 
 }  // namespace
