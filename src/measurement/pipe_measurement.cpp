@@ -59,8 +59,11 @@ std::optional<double> TemperatureChange_k(const PipeState& reference, const Pipe
 }
 
 // What all states together say, once they are measured.
-void AddSequence(const Session& session, PipeMeasurement& measurement) {
+void AddSequence(Session session, PipeMeasurement& measurement) {
   constexpr double kStill_px = 0.1;
+  // Images that came while watching stand in no table of the session.
+  session.pipe_states.clear();
+  for (const MeasuredState& state : measurement.states) session.pipe_states.push_back(state.table);
   const auto gauge_sigmas = GaugeSigmas_microstrain(session);
   for (const MeasuredState& state : measurement.states)
     measurement.sequence_states.push_back(StateOf(state, session.pipe_states[0], gauge_sigmas));
@@ -197,40 +200,24 @@ void PipeSequence::Recall(MeasuredState& state) {
 
 PipeMeasurement PipeSequence::Summary(std::vector<MeasuredState> states) const {
   PipeMeasurement measurement;
-  std::optional<double> TemperatureChange_k(const PipeState& reference, const PipeState& state) {
-    if (!reference.temperature_c || !state.temperature_c) return {};
-    return *state.temperature_c - *reference.temperature_c;
-  }
+  measurement.grid = grid();
+  measurement.geometry = geometry_;
+  measurement.magnification_px_per_mm = array_.Magnification_px_per_mm();
+  measurement.options = options_;
+  measurement.states = std::move(states);
+  if (!measurement.states.empty()) AddSequence(session_, measurement);
+  return measurement;
+}
 
-  // What all states together say, once they are measured.
-  void AddSequence(Session session, PipeMeasurement & measurement) {
-    constexpr double kStill_px = 0.1;
-    session.pipe_states
-        .clear();  // images that came while watching stand in no table of the session
-    for (const MeasuredState& state : measurement.states)
-      session.pipe_states.push_back(state.table);
-    const auto gauge_sigmas = GaugeSigmas_microstrain(session);
-    for (const MeasuredState& state : measurement.states)
-      measurement.sequence_states.push_back(StateOf(state, session.pipe_states[0], gauge_sigmas));
-    measurement.comparison = CompareWithGauges(measurement.sequence_states);
-    measurement.gauge_outliers = FindGaugeOutliers(session);
-    measurement.coverage_factor = session.acceptance.coverage_factor;
-    measurement.sequence =
-        AnalyseSequence(measurement.sequence_states,
-                        {BaseLength_mm(measurement.grid), session.acceptance.coverage_factor,
-                         kStill_px / measurement.magnification_px_per_mm});
-    return measurement;
-  }
+Result<PipeMeasurement> MeasureStream(const Session& session, const ArrayCalibration& array,
+                                      const PipeOptions& options, PipeStream& stream) {
+  return StreamMeasurement(session, array, options, stream).Run();
+}
 
-  Result<PipeMeasurement> MeasureStream(const Session& session, const ArrayCalibration& array,
-                                        const PipeOptions& options, PipeStream& stream) {
-    return StreamMeasurement(session, array, options, stream).Run();
-  }
-
-  Result<PipeMeasurement> MeasurePipe(const Session& session, const ArrayCalibration& array,
-                                      const PipeOptions& options, Console& console) {
-    SessionImages images(session, console);
-    return MeasureStream(session, array, options, images);
-  }
+Result<PipeMeasurement> MeasurePipe(const Session& session, const ArrayCalibration& array,
+                                    const PipeOptions& options, Console& console) {
+  SessionImages images(session, console);
+  return MeasureStream(session, array, options, images);
+}
 
 }  // namespace telestrain

@@ -59,7 +59,9 @@ void Read(const Json& json, ViewMotion& motion) {
 Json Write(const std::string& text) { return text; }
 void Read(const Json& json, std::string& text) { text = json.get<std::string>(); }
 
-// Declared before the vectors of them.
+// Declared before the templates that need them.
+Json Write(const StrainValue& v);
+void Read(const Json& json, StrainValue& v);
 Json Write(const SurfaceTensor& tensor);
 void Read(const Json& json, SurfaceTensor& tensor);
 Json Write(const GaugeStrain& gauge);
