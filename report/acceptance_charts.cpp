@@ -85,7 +85,7 @@ Status DrawStrainHysteresis(const ReportContext& context, const PageBox& box) {
     // From the first state on that falls back by a tenth of what the cycle reached.
     unloading = unloading || (peak > 0 && std::abs(*gauges) < std::abs(before) - 0.1 * peak);
     before = *gauges;
-    points.push_back({*gauges, *error, NumberAt(row, "/4/value").value_or(0), unloading});
+    points.push_back({*gauges, *error, NumberAt(row, "/12/value").value_or(0), unloading});
   }
   const Look& look = context.flow.look();
   return DrawErrors(context, box, points,

@@ -19,7 +19,8 @@ struct Sample {
 // Column numbers of the tables as MakeResults writes them.
 constexpr const char *kRulerError = "/2/value", *kRulerU = "/3/value",
                      *kRulerVerdict = "/4/verdict";
-constexpr const char *kCamera = "/3/value", *kCameraU = "/4/value", *kGauges = "/7/value";
+constexpr const char *kCamera = "/3/value", *kCameraU = "/4/value", *kGauges = "/7/value",
+                     *kAtGauges = "/11/value", *kAtGaugesU = "/12/value";
 
 std::vector<Sample> RulerErrors(const ReportContext& context) {
   std::vector<Sample> samples;
@@ -82,6 +83,7 @@ Status DrawRulerErrors(const ReportContext& context, const PageBox& box) {
 
 struct State {
   Sample camera;
+  Sample at_gauges;  // the camera's value that is compared with them
   std::optional<double> gauges;
 };
 
@@ -90,7 +92,9 @@ std::vector<State> States(const ReportContext& context) {
   for (const Json& row : ListAt(context.Table("strain-states"), "/rows"))
     if (const auto camera = NumberAt(row, kCamera))
       states.push_back(
-          {{*camera, NumberAt(row, kCameraU).value_or(0), ""}, NumberAt(row, kGauges)});
+          {{*camera, NumberAt(row, kCameraU).value_or(0), ""},
+           {NumberAt(row, kAtGauges).value_or(*camera), NumberAt(row, kAtGaugesU).value_or(0), ""},
+           NumberAt(row, kGauges)});
   return states;
 }
 
@@ -140,8 +144,8 @@ Status DrawStrainGauges(const ReportContext& context, const PageBox& box) {
   }
   double low = 0, high = 0;
   for (const State& state : states) {
-    low = std::min({low, state.camera.value, *state.gauges});
-    high = std::max({high, state.camera.value, *state.gauges});
+    low = std::min({low, state.at_gauges.value, *state.gauges});
+    high = std::max({high, state.at_gauges.value, *state.gauges});
   }
   const double margin = 0.06 * (high - low);
   const auto translate = [&](const char* text) { return context.layout.Translate(text); };
@@ -152,9 +156,9 @@ Status DrawStrainGauges(const ReportContext& context, const PageBox& box) {
   plot.DrawCurve({plot.x_low(), plot.x_high()}, {plot.x_low(), plot.x_high()},
                  {look.reference, 0.9});
   for (const State& state : states) {
-    plot.DrawErrorBar(*state.gauges, state.camera.value, state.camera.expanded_uncertainty,
+    plot.DrawErrorBar(*state.gauges, state.at_gauges.value, state.at_gauges.expanded_uncertainty,
                       look.measured);
-    plot.DrawMarker(*state.gauges, state.camera.value, Marker::kDot, look.measured, 2);
+    plot.DrawMarker(*state.gauges, state.at_gauges.value, Marker::kDot, look.measured, 2);
   }
   plot.DrawLegend({{translate("states"), Marker::kDot, look.measured},
                    {"1 : 1", Marker::kDot, look.reference, true}});
@@ -171,8 +175,8 @@ Status DrawStrainErrors(const ReportContext& context, const PageBox& box) {
   for (const State& state : states) {
     if (!state.gauges) continue;
     has_gauges = true;
-    const double error = std::abs(state.camera.value - *state.gauges);
-    reach = std::max(reach, 1.05 * (error + state.camera.expanded_uncertainty));
+    const double error = std::abs(state.at_gauges.value - *state.gauges);
+    reach = std::max(reach, 1.05 * (error + state.at_gauges.expanded_uncertainty));
   }
   if (!has_gauges) {
     DrawNoData(context, box);
@@ -192,8 +196,8 @@ Status DrawStrainErrors(const ReportContext& context, const PageBox& box) {
   }
   for (std::size_t i = 0; i < states.size(); ++i) {
     if (!states[i].gauges) continue;
-    const double x = static_cast<double>(i), error = states[i].camera.value - *states[i].gauges;
-    plot.DrawErrorBar(x, error, states[i].camera.expanded_uncertainty, look.measured, size_pt);
+    const double x = static_cast<double>(i), error = states[i].at_gauges.value - *states[i].gauges;
+    plot.DrawErrorBar(x, error, states[i].at_gauges.expanded_uncertainty, look.measured, size_pt);
     plot.DrawMarker(x, error, Marker::kDot, look.measured, size_pt);
   }
   plot.DrawLegend({{translate("error ± U of the camera"), Marker::kDot, look.measured}});

@@ -41,6 +41,7 @@ const std::vector<std::string>& TableNames() {
                                                   "ruler-budget",
                                                   "ruler-rejected",
                                                   "strain-states",
+                                                  "strain-beam",
                                                   "strain-comparison",
                                                   "strain-budget",
                                                   "strain-rejected",

@@ -34,10 +34,18 @@ void AddStates(const Json& strain, ResultsDraft& draft) {
                      {"Gauges, change", "µε"},
                      {"Camera - gauges", "µε"},
                      {"Points", ""},
-                     {"Rejected", ""}});
+                     {"Rejected", ""},
+                     {"At gauges", "µε"},
+                     {"U at gauges", "µε"}});
   for (const Json& state : ListAt(strain, "/states")) {
     const auto axial = NumberAt(state, "/axial_microstrain");
     const auto gauge = NumberAt(state, "/gauge_change_microstrain");
+    const Json& beside = EntryAt(state, "/compared_microstrain");
+    const auto compared = beside.is_number() ? beside.get<double>() : axial;
+    const auto compared_expanded = draft.acceptance.Expanded(
+        NumberAt(state, beside.is_number() ? "/compared_uncertainty_microstrain"
+                                           : "/standard_uncertainty_microstrain"));
+    const ResultCellPair at_gauges = ResultCells(compared, compared_expanded, 1);
     const auto expanded =
         draft.acceptance.Expanded(NumberAt(state, "/standard_uncertainty_microstrain"));
     const ResultCellPair camera = ResultCells(axial, expanded, 1);
@@ -45,10 +53,40 @@ void AddStates(const Json& strain, ResultsDraft& draft) {
                   TextAt(state, "/step", kNoValue), camera.value, camera.uncertainty,
                   FixedCell(NumberAt(state, "/local_a_microstrain"), 1),
                   FixedCell(NumberAt(state, "/local_b_microstrain"), 1), FixedCell(gauge, 1),
-                  FixedCell(Difference(axial, gauge), 1),
-                  CountCell(NumberAt(state, "/points_used")), CountCell(RejectedPoints(state))});
+                  FixedCell(Difference(compared, gauge), 1),
+                  CountCell(NumberAt(state, "/points_used")), CountCell(RejectedPoints(state)),
+                  at_gauges.value, at_gauges.uncertainty});
   }
   draft.AddTable(std::move(table));
+}
+
+// How the pipe was loaded: the parts of the beam that both patches follow.
+void AddBeam(const Json& strain, ResultsDraft& draft) {
+  ResultTable table("strain-beam", "Membrane, bending and torsion of every state",
+                    {{"Image", ""},
+                     {"Membrane", "µε"},
+                     {"U", "µε"},
+                     {"Bending 0°", "µε"},
+                     {"U", "µε"},
+                     {"Bending 90°", "µε"},
+                     {"U", "µε"},
+                     {"Torsion", "µε"},
+                     {"U", "µε"}});
+  for (const Json& state : ListAt(strain, "/states")) {
+    const Json& beam = EntryAt(state, "/beam");
+    if (!beam.is_object()) continue;
+    std::vector<Json> cells{TextAt(state, "/image", "?")};
+    for (const char* part : {"/membrane", "/bending_0", "/bending_90", "/torsion"}) {
+      const auto at = [&](const char* key) { return NumberAt(beam, std::string(part) + key); };
+      const ResultCellPair pair =
+          ResultCells(at("/microstrain"),
+                      draft.acceptance.Expanded(at("/standard_uncertainty_microstrain")), 1);
+      cells.push_back(pair.value);
+      cells.push_back(pair.uncertainty);
+    }
+    table.AddRow(cells);
+  }
+  if (!table.empty()) draft.AddTable(std::move(table));
 }
 
 void AddReasons(const std::string& state, const Json& counts, ResultTable& table) {
@@ -115,9 +153,31 @@ void AddComparison(const Json& strain, ResultsDraft& draft) {
   draft.AddTable(std::move(table));
 }
 
+// The diameter against the nominal one, and the form.
+void AddGeometry(const Json& geometry, const Acceptance& acceptance, ResultTable& table) {
+  const auto diameter = NumberAt(geometry, "/diameter_mm");
+  const auto sigma_um = NumberAt(geometry, "/standard_uncertainty_um");
+  if (!diameter || !sigma_um) return;
+  table.AddFact(
+      "Outer diameter",
+      UncertainCell(*diameter, acceptance.Expanded(*sigma_um / 1000), FixedCell(diameter, 4)),
+      "mm");
+  table.AddFact("Deviation from the nominal diameter",
+                FixedCell(NumberAt(geometry, "/deviation_um"), 2), "µm");
+  table.AddFact("Roundness, RMS", FixedCell(NumberAt(geometry, "/roundness_rms_um"), 2), "µm");
+  table.AddFact("Roundness, peak to valley",
+                FixedCell(NumberAt(geometry, "/roundness_peak_to_valley_um"), 2), "µm");
+  const auto radius = NumberAt(geometry, "/bend_radius_mm");
+  table.AddFact("Axis", radius ? Json("bent") : Json("straight within its uncertainty"));
+  if (radius) table.AddFact("Radius of the bend", FixedCell(radius, 0), "mm");
+}
+
 void AddPipe(const Json& strain, ResultsDraft& draft) {
   ResultTable table = FactTable("pipe", "Pipe as measured");
-  if (const auto diameter = NumberAt(strain, "/pipe/diameter_mm")) {
+  const Json& geometry = EntryAt(strain, "/geometry");
+  if (geometry.is_object()) {
+    AddGeometry(geometry, draft.acceptance, table);
+  } else if (const auto diameter = NumberAt(strain, "/pipe/diameter_mm")) {
     const auto expanded = draft.acceptance.Expanded(NumberAt(strain, "/pipe/sigma_diameter_mm"));
     table.AddFact("Outer diameter (U of the fit)",
                   UncertainCell(*diameter, expanded, FixedCell(diameter, 4)), "mm");
@@ -193,6 +253,7 @@ void AddStrain(const Json& strain, const Json& calibration, ResultsDraft& draft)
   draft.measured["sequence"] = false;
   if (!measured) return;
   AddStates(strain, draft);
+  AddBeam(strain, draft);
   AddRejectedPoints(strain, draft);
   AddPipe(strain, draft);
   AddBudget(strain, draft);

@@ -142,6 +142,26 @@ std::optional<double> SigmaOfGauges(const PipeState& reference, const PipeState&
   return std::sqrt(variances) / count;
 }
 
+ComparedStrain ComparedWithGauges(const StateStrain& strain,
+                                  const std::vector<std::string>& gauge_columns,
+                                  const PipeState& reference, const PipeState& state) {
+  const ComparedStrain long_base{strain.axial_strain, strain.standard_uncertainty, false};
+  ComparedStrain mean;
+  int count = 0;
+  for (std::size_t i = 0; i < gauge_columns.size(); ++i) {
+    if (!ChangeOf(reference, state, i)) continue;
+    const auto place =
+        std::find_if(strain.gauges.begin(), strain.gauges.end(),
+                     [&](const GaugeStrain& gauge) { return gauge.column == gauge_columns[i]; });
+    if (place == strain.gauges.end()) return long_base;
+    mean.strain += place->strain.value;
+    mean.standard_uncertainty += place->strain.standard_uncertainty;
+    ++count;
+  }
+  if (count == 0) return long_base;
+  return {mean.strain / count, mean.standard_uncertainty / count, true};
+}
+
 std::vector<std::optional<double>> GaugeSigmas_microstrain(const Session& session) {
   std::vector<std::optional<double>> sigmas(session.gauge_columns.size(),
                                             session.pipe.sigma_gauge_microstrain);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "measurement/sequence_state.h"
+#include "measurement/strain.h"
 #include "session/session.h"
 
 namespace telestrain {
@@ -24,6 +25,19 @@ std::optional<double> SigmaOfGauges(const PipeState& reference, const PipeState&
 
 // One standard uncertainty per gauge column of the session.
 std::vector<std::optional<double>> GaugeSigmas_microstrain(const Session& session);
+
+// What the camera says of a state that is to be compared with the mean of its gauges.
+struct ComparedStrain {
+  double strain = 0, standard_uncertainty = 0;
+  bool at_gauges = false;
+};
+
+// The mean of the camera's strain at the gauges that read in both states when the place of each of
+// them is known, and otherwise the long-base strain, which a bent pipe has on one fibre only. The
+// uncertainty of the mean is the mean uncertainty: its sources are common to all places.
+ComparedStrain ComparedWithGauges(const StateStrain& strain,
+                                  const std::vector<std::string>& gauge_columns,
+                                  const PipeState& reference, const PipeState& state);
 
 // Camera against gauges over the states after the reference.
 struct GaugeComparison {

@@ -45,8 +45,8 @@ SequenceState StateOf(const MeasuredState& state, const PipeState& reference,
           state.table.cycle,
           state.table.step,
           state.table.time_s,
-          kMicro * state.strain.axial_strain,
-          kMicro * state.strain.standard_uncertainty,
+          kMicro * state.compared.strain,
+          kMicro * state.compared.standard_uncertainty,
           state.gauge_change_microstrain,
           SigmaOfGauges(reference, state.table, gauge_sigmas),
           state.strain.translation_mm,
@@ -177,6 +177,8 @@ Result<PipeSequence> PipeSequence::Start(const Session& session, const ArrayCali
 void PipeSequence::FillGauges(MeasuredState& state) const {
   state.gauge_mean_microstrain = MeanOfGauges(state.table);
   state.gauge_change_microstrain = ChangeOfGauges(reference_table_, state.table);
+  state.compared =
+      ComparedWithGauges(state.strain, session_.gauge_columns, reference_table_, state.table);
 }
 
 Result<MeasuredState> PipeSequence::Measure(const PipeState& table, const GrayImage& image) {

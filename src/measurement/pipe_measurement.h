@@ -20,6 +20,7 @@ struct MeasuredState {
   std::optional<double> gauge_mean_microstrain;  // of the gauges that have a value
   std::optional<double>
       gauge_change_microstrain;  // mean change since the reference of those that read in both
+  ComparedStrain compared;       // the camera's value beside that change
 };
 
 // The states hold no points: what they said of each point stands in the state's own file, so that

@@ -11,8 +11,9 @@ namespace telestrain {
 struct SequenceState {
   std::string image, cycle, step;  // as pipe.csv names them
   std::optional<double> time_s;
-  // Axial strain since the reference, and its standard uncertainty: that of a difference between
-  // two readings of one kind, so that half of its variance is the reference's in every state.
+  // Axial strain since the reference (at the gauges, where their places are known), and its
+  // standard uncertainty: that of a difference between two readings of one kind, so that half of
+  // its variance is the reference's in every state.
   double camera_microstrain = 0;
   double camera_sigma_microstrain = 0;
   std::optional<double> gauge_microstrain;  // change of the gauges' mean since the reference
