@@ -2,10 +2,26 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/parallel.h"
 
 namespace telestrain::correlation {
+
+namespace {
+
+// Sums down the columns of a row of tiles; compilers turn the loop into vectors.
+void AddSquares(const float* raw, const float* blurred, const std::vector<float>& counted,
+                std::vector<float>& raw_sums, std::vector<float>& blurred_sums) {
+  constexpr float kLargest = std::numeric_limits<float>::max();
+  for (std::size_t x = 0; x < counted.size(); ++x) {
+    const float factor = std::abs(blurred[x]) <= kLargest ? counted[x] : 0.f;
+    raw_sums[x] += factor > 0 ? raw[x] * raw[x] : 0.f;
+    blurred_sums[x] += factor > 0 ? blurred[x] * blurred[x] : 0.f;
+  }
+}
+
+}  // namespace
 
 NoiseShares::NoiseShares(const ImageView& gradient_x, const ImageView& gradient_y,
                          const std::vector<float>& blur, const PixelBits& inside, int threads)
@@ -15,19 +31,22 @@ NoiseShares::NoiseShares(const ImageView& gradient_x, const ImageView& gradient_
   tiles_.resize(static_cast<std::size_t>(columns_) * rows);
   ParallelFor(rows, threads, [&](int row) {
     const int top = row * kTile_px, end = std::min(height, top + kTile_px);
-    std::vector<float> blurred(static_cast<std::size_t>(width) * kTile_px);
+    const auto columns = static_cast<std::size_t>(width);
+    std::vector<float> blurred(columns * kTile_px), counted(columns, 1.f);
     for (int axis = 0; axis < 2; ++axis) {
       const ImageView& view = axis == 0 ? gradient_x : gradient_y;
       FilterSeparable(view, blur, blur, {0, top, width, end - top}, 1, blurred.data(), width);
+      std::vector<float> raw_sums(columns), blurred_sums(columns);
       for (int y = top; y < end; ++y) {
-        for (int x = 0; x < width; ++x) {
-          const float raw = view.pixels[y * view.stride + x];
-          const float smooth = blurred[static_cast<std::size_t>(y - top) * width + x];
-          if (!std::isfinite(smooth) || !(inside.empty() || inside.At(x, y))) continue;
-          Tile& tile = tiles_[static_cast<std::size_t>(row) * columns_ + x / kTile_px];
-          tile.raw[axis] += raw * raw;
-          tile.blurred[axis] += smooth * smooth;
-        }
+        if (!inside.empty())
+          for (int x = 0; x < width; ++x) counted[x] = inside.At(x, y) ? 1.f : 0.f;
+        AddSquares(view.pixels + y * view.stride, &blurred[(y - top) * columns], counted, raw_sums,
+                   blurred_sums);
+      }
+      for (int x = 0; x < width; ++x) {
+        Tile& tile = tiles_[static_cast<std::size_t>(row) * columns_ + x / kTile_px];
+        tile.raw[axis] += raw_sums[x];
+        tile.blurred[axis] += blurred_sums[x];
       }
     }
   });

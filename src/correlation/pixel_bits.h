@@ -46,18 +46,26 @@ class PixelBits {
   std::vector<std::uint64_t> words_;
 };
 
-// The pixels of a region for which `is_set(x, y)`, with the coordinates of the whole image.
+// Eight bytes of zero or one as eight bits: the product brings byte k to bit 56 + k.
+inline std::uint64_t PackedBytes(const unsigned char* bytes) {
+  std::uint64_t eight = 0;
+  for (int k = 0; k < 8; ++k) eight |= static_cast<std::uint64_t>(bytes[k]) << (8 * k);
+  return (eight * 0x0102040810204080u) >> 56;
+}
+
+// The pixels of a region for which `is_set(x, y)`, with the coordinates of the whole image. A row's
+// answers are first collected as bytes, which compilers turn into vectors, and then packed.
 template <class IsSet>
 PixelBits BitsWhere(const PixelRegion& region, const IsSet& is_set) {
   PixelBits bits(region.width, region.height);
   std::uint64_t any = 0;
+  std::vector<unsigned char> flags((static_cast<std::size_t>(region.width) + 63) / 64 * 64);
   for (int y = 0; y < region.height; ++y) {
+    for (int x = 0; x < region.width; ++x) flags[x] = is_set(region.x + x, region.y + y);
     std::uint64_t* row = bits.Row(y);
     for (int x = 0; x < region.width; x += 64) {
-      const int end = region.width - x < 64 ? region.width - x : 64;
       std::uint64_t word = 0;
-      for (int k = 0; k < end; ++k)
-        word |= static_cast<std::uint64_t>(is_set(region.x + x + k, region.y + y)) << k;
+      for (int k = 0; k < 64; k += 8) word |= PackedBytes(&flags[x + k]) << k;
       row[x / 64] = word;
       any |= word;
     }

@@ -17,14 +17,19 @@ struct Saturation {
 
   Saturation() = default;
   Saturation(const GrayImage& image, const PixelRegion& region)
-      : black(BitsWhere(region, [&](int x, int y) { return image.At(x, y) <= 0; })),
-        white(BitsWhere(region, [&](int x, int y) { return image.At(x, y) >= image.max_gray; })) {}
+      : Saturation(image.pixels.data(), image.width, image.max_gray, region) {}
 
   static bool Exceeds(const PixelBits& bits, const PixelRegion& part) {
     return static_cast<double>(bits.Count(part)) >
            kMostSaturatedShare * part.width * static_cast<double>(part.height);
   }
   bool In(const PixelRegion& part) const { return Exceeds(black, part) || Exceeds(white, part); }
+
+ private:
+  Saturation(const float* pixels, std::ptrdiff_t stride, float max_gray, const PixelRegion& region)
+      : black(BitsWhere(region, [=](int x, int y) { return pixels[y * stride + x] <= 0; })),
+        white(BitsWhere(region, [=](int x, int y) { return pixels[y * stride + x] >= max_gray; })) {
+  }
 };
 
 }  // namespace telestrain::correlation
