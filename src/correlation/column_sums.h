@@ -7,6 +7,21 @@
 namespace telestrain::correlation {
 namespace {
 
+// Not those of the standard library: an out-of-line copy made for one instruction set could stand
+// in for another's.
+template <class Value>
+TELESTRAIN_INLINE Value Lesser(Value a, Value b) {
+  return b < a ? b : a;
+}
+template <class Value>
+TELESTRAIN_INLINE Value Greater(Value a, Value b) {
+  return a < b ? b : a;
+}
+
+// A larger subset does not stay in the first cache from one iteration to the next.
+constexpr int kNear_px = 128;
+TELESTRAIN_INLINE void Prefetch(const float* from) { __builtin_prefetch(from); }
+
 struct WideFma {
   template <class Value>
   TELESTRAIN_INLINE Value operator()(const Value& a, const Value& b, const Value& c) const {

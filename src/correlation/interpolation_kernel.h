@@ -1,9 +1,7 @@
 #pragma once
 
-#include <algorithm>
-
 #include "correlation/column_sums.h"
-#include "correlation/spline.h"
+#include "correlation/strip_plan.h"
 
 // Interpolation of the warped pixels of a band, strip by strip of at most 64 columns. Only for
 // kernels_*.cpp.
@@ -18,64 +16,6 @@
 namespace telestrain::correlation {
 namespace {
 
-constexpr int kMostVectors = 4;
-constexpr int kMostTerms = 4;
-// Way in y from a row's middle up to which 1, 2, 3 or 4 terms leave less than 1e-4 times the first
-// neglected derivative: (limit)^terms / terms!.
-constexpr float kTermLimits_px[kMostTerms] = {1e-5f, 0.01f, 0.05f, 0.2f};
-// Way out of the cell: 0.15^5 / 5! and 0.02^3 / 3! are about 1e-6.
-template <int kDegree>
-constexpr float kWayOut_px = kDegree == 5 ? 0.15f : 0.02f;
-
-template <int kValue>
-struct Terms {
-  static constexpr int value = kValue;
-};
-
-struct StripBuffer {
-  alignas(64) float values[kBandRows * 3 * (kMostVectors + 1) * kWide];
-  const float* first[kBandRows];
-  alignas(64) float fraction_x[kBandRows + 8], fraction_y[kBandRows + 8];
-  float slope_x[kBandRows + 8], slope_y[kBandRows + 8];
-  alignas(64) float weights[kMostTerms][6][kBandRows + 8];
-};
-
-// Position, and how it changes along the row, of the pixel at an offset from the subset's centre.
-struct Place {
-  double at_px, slope, bend;  // at + d (1 + slope) + d^2 bend
-};
-template <int kOrder>
-TELESTRAIN_INLINE Place PlaceOf(double at_px, const double (&w)[kLargestBasis], double x,
-                                double y) {
-  Place place{at_px, 0, 0};
-  if constexpr (kOrder > 0) {
-    place.at_px += w[1] * x + w[2] * y;
-    place.slope = w[1];
-  }
-  if constexpr (kOrder > 1) {
-    place.at_px += 0.5 * w[3] * x * x + w[4] * x * y + 0.5 * w[5] * y * y;
-    place.slope += w[3] * x + w[4] * y;
-    place.bend = 0.5 * w[3];
-  }
-  return place;
-}
-
-TELESTRAIN_INLINE float Magnitude(float value) { return value < 0 ? -value : value; }
-
-// Columns of the widest strip for which three terms are enough, else one vector.
-template <int kDegree, int kOrder>
-TELESTRAIN_INLINE int WidestStrip(const SubsetWarp& warp, int side_px) {
-  const int vectors = std::min(kMostVectors, (side_px + kWide - 1) / kWide);
-  if (kOrder == 0) return vectors * kWide;
-  const double half = side_px / 2;
-  double slope =
-      std::max(warp.v[1] < 0 ? -warp.v[1] : warp.v[1], warp.u[1] < 0 ? -warp.u[1] : warp.u[1]);
-  if (kOrder == 2)
-    for (const auto& w : {warp.u, warp.v})
-      for (int k : {3, 4}) slope += half * (w[k] < 0 ? -w[k] : w[k]);
-  return slope * vectors * kWide / 2 <= kTermLimits_px[2] ? vectors * kWide : kWide;
-}
-
 template <int kDegree, int kOrder>
 class WarpedStrip {
  public:
@@ -89,7 +29,8 @@ class WarpedStrip {
         side_(side_px),
         column_(column),
         vectors_(vectors),
-        columns_((vectors + 1) * kWide) {}
+        columns_((vectors + 1) * kWide),
+        far_(side_px > kNear_px) {}
 
   // Fills the buffer for rows [first, end) and returns the number of terms, 0 where only OneByOne
   // is exact.
@@ -135,11 +76,11 @@ class WarpedStrip {
     const Place x = PlaceOf<kOrder>(warp_.x_px + x_px, warp_.u, x_px, y_px);
     const Place y = PlaceOf<kOrder>(warp_.y_px + y_px, warp_.v, x_px, y_px);
     const int whole_x = static_cast<int>(x.at_px), whole_y = static_cast<int>(y.at_px);
-    const int last = std::min(side_ - column_ - v * kWide, kWide) - 1;
+    const int last = Lesser(side_ - column_ - v * kWide, kWide) - 1;
     alignas(64) float shift_x[kWide], shift_y[kWide];
     bool in_cell = true;
     for (int lane = 0; lane < kWide; ++lane) {
-      const float d = static_cast<float>(std::min(lane, last));
+      const float d = static_cast<float>(Lesser(lane, last));
       shift_x[lane] = Shift(x, whole_x, d);
       shift_y[lane] = Shift(y, whole_y, d);
       in_cell = in_cell & (shift_x[lane] >= 0) & (shift_x[lane] < 1) & (shift_y[lane] >= 0) &
@@ -179,12 +120,10 @@ class WarpedStrip {
       buffer.slope_y[r] = static_cast<float>(y.slope);
       in_cell = in_cell & NearCell(buffer.fraction_x[r], Way(x, reach)) &
                 NearCell(buffer.fraction_y[r], Way(y, reach));
-      farthest = std::max(farthest, Way(y, reach));
+      farthest = Greater(farthest, Way(y, reach));
     }
     if (!in_cell) return 0;
-    for (int terms = 1; terms <= (vectors_ == 1 ? kMostTerms : kMostTerms - 1); ++terms)
-      if (farthest <= kTermLimits_px[terms - 1]) return terms;
-    return 0;
+    return TermsFor(farthest, vectors_);
   }
   TELESTRAIN_INLINE static float Way(const Place& place, float reach) {
     return reach * (Magnitude(static_cast<float>(place.slope)) +
@@ -224,6 +163,7 @@ class WarpedStrip {
     float* to = buffer.values + r * kTerms * columns_;
     for (int i = 0; i < columns_; i += kWide) {
       const float* from = buffer.first[r] + i;
+      if (far_) Prefetch(from + columns_);
       Float16 sums[kTerms];
       const Float16 top = LoadWide(from);
       for (int term = 0; term < kTerms; ++term) sums[term] = weight[term][0] * top;
@@ -262,7 +202,7 @@ class WarpedStrip {
       const int x = RoundDown(shift_x[lane]), y = RoundDown(shift_y[lane]);
       fraction_x[lane] = shift_x[lane] - static_cast<float>(x);
       fraction_y[lane] = shift_y[lane] - static_cast<float>(y);
-      from[lane] = first + y * spline_.stride + x + std::min(lane, last);
+      from[lane] = first + y * spline_.stride + x + Lesser(lane, last);
     }
     Float16 weight[kTaps];
     alignas(64) float weights_x[kTaps][kWide], weights_y[kTaps][kWide];
@@ -295,6 +235,7 @@ class WarpedStrip {
   const SplineView& spline_;
   const SubsetWarp& warp_;
   int half_, side_, column_, vectors_, columns_;
+  bool far_;
 };
 
 }  // namespace

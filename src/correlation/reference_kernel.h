@@ -35,9 +35,8 @@ struct ReferenceBand {
   TELESTRAIN_INLINE ReferenceBand() {
     count = f = ff = Spread(0);
     Clear(jx), Clear(jy), Clear(fjx), Clear(fjy);
-    for (auto* products : {&xx, &xy, &yy})
-      for (auto& row : *products)
-        for (Float16& sum : row) sum = Spread(0);
+    for (int a = 0; a < 5; ++a)
+      for (int b = 0; b < 5; ++b) xx[a][b] = xy[a][b] = yy[a][b] = Spread(0);
   }
 
   template <Counting kCounting>

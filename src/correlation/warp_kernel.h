@@ -23,11 +23,16 @@ struct WarpedSums {
   template <Counting kCounting, class Interpolate>
   TELESTRAIN_INLINE void AddColumn(const SubsetView& subset, float mean, int column, int first,
                                    int end, const Interpolate& interpolate) {
+    constexpr int kAhead = kMostVectors * kWide;  // the strip after this one
+    const float* const fields[] = {subset.gray, subset.gradient_x, subset.gradient_y};
     const WideColumn<kCounting> pixels(subset, column);
     PowersOfY<kOrder> gx_sums, gy_sums;
     Float16 column_t = Spread(0), column_tt = Spread(0), column_tf = Spread(0);
     const Float16 mean_wide = Spread(mean);
+    const bool far = subset.side_px > kNear_px;
     for (int row = first; row < end; ++row) {
+      if (far)
+        for (const float* field : fields) Prefetch(field + row * subset.stride + column + kAhead);
       const Float16 value = pixels.Counted(row, interpolate(row) - mean_wide);
       const Float16 f = pixels.At(subset.gray, row) - mean_wide;
       const float y = OffsetOfRow(row, subset.side_px);
@@ -59,10 +64,10 @@ WarpedMoments Warped(const SubsetView& subset, float mean, const SplineView& spl
   const int side = subset.side_px;
   const int first = FirstRowOfBand(side, band), end = FirstRowOfBand(side, band + 1);
   WarpedSums<kOrder> sums;
-  const int widest = WidestStrip<kDegree, kOrder>(warp, side);
+  const int width = StripWidth<kDegree, kOrder>(warp, side);
   StripBuffer buffer;
-  for (int column = 0; column < side; column += widest) {
-    const int vectors = (std::min(widest, side - column) + kWide - 1) / kWide;
+  for (int column = 0; column < side; column += width) {
+    const int vectors = (Lesser(width, side - column) + kWide - 1) / kWide;
     const WarpedStrip<kDegree, kOrder> strip(spline, warp, side, column, vectors);
     const int terms = strip.Prepare(first, end, buffer);
     const auto add = [&](const auto& interpolate) __attribute__((always_inline)) {
