@@ -58,6 +58,39 @@ TEST_F(Robustness, ABadStartIsReported) {
   EXPECT_FALSE(match.ok());
 }
 
+// Whatever a start says, no pixel outside the image is read (the sanitizers see it) and the point
+// ends with a status: converged only where the image is truly correlated.
+TEST_F(Robustness, GarbageStartsEndWithAStatus) {
+  const double garbage[] = {std::nan(""),
+                            std::numeric_limits<double>::infinity(),
+                            -1e300,
+                            1e9,
+                            -1e9,
+                            1e5,
+                            0.999,
+                            -0.999,
+                            150,
+                            -150,
+                            0};
+  std::mt19937 random(9);
+  const auto any = [&] { return garbage[random() % std::size(garbage)]; };
+  for (int order = 0; order <= 2; ++order) {
+    CorrelationOptions options;
+    options.shape_order = order;
+    const CorrelationReference reference(before_, kRegion, options);
+    for (int k = 0; k < 2000; ++k) {
+      ShapeFunction start;
+      start.displacement_px = {any(), any()};
+      for (double& entry : start.gradient.reshaped()) entry = any();
+      for (double& entry : start.curvature_per_px.reshaped()) entry = any() / 1000;
+      const SubsetMatch match = reference.Match(kCenter, same_, start);
+      if (!match.ok()) continue;
+      EXPECT_GT(match.zncc, options.min_zncc);
+      EXPECT_TRUE(match.shape.displacement_px.allFinite());
+    }
+  }
+}
+
 TEST_F(Robustness, AnotherPatternIsReported) {
   const PreparedImage other(Speckle(8, kSide, kSide, 2.0).Render(kSide, kSide), kRegion, options_);
   for (const auto& match :
