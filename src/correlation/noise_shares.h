@@ -14,6 +14,8 @@ namespace telestrain::correlation {
 // in any subset.
 class NoiseShares {
  public:
+  static constexpr int kTile_px = 16;  // counted from the region's corner
+
   NoiseShares() = default;
   // `inside` may be empty: all pixels count.
   NoiseShares(const ImageView& gradient_x, const ImageView& gradient_y,
@@ -23,7 +25,6 @@ class NoiseShares {
   Eigen::Vector2d In(const PixelRegion& part) const;
 
  private:
-  static constexpr int kTile_px = 16;
   struct Tile {
     float raw[2] = {0, 0}, blurred[2] = {0, 0};
   };

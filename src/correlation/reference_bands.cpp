@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/parallel.h"
+#include "correlation/noise_shares.h"
 
 namespace telestrain::correlation {
 namespace {
@@ -28,7 +29,7 @@ ReferenceBands::ReferenceBands(const GrayImage& image, const FieldOptions& optio
 
 CorrelationReference ReferenceBands::Prepare(int first_row, int last_row) const {
   const int reach = options_.subset_px / 2 + kFilterReach_px;
-  const int top = std::max(0, first_row - reach);
+  const int top = std::max(0, first_row - reach) / NoiseShares::kTile_px * NoiseShares::kTile_px;
   const int bottom = std::min(image_->height, last_row + reach);
   return {*image_, {0, top, image_->width, bottom - top}, options_, mask_};
 }

@@ -11,7 +11,8 @@ namespace telestrain::correlation {
 
 // The reference of a correlation, whole or in bands of rows that are prepared one after the other,
 // so that a large image is never held prepared as a whole. A band reaches beyond its points by the
-// subset and the filters, so that a point does not notice which band it was in.
+// subset and the filters and starts at a tile of the noise shares, so that a point does not notice
+// which band it was in.
 class ReferenceBands {
  public:
   explicit ReferenceBands(const CorrelationReference& whole);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "correlation/correlation_field.h"
+#include "correlation/field_tracker.h"
 #include "tests/unit/correlation/speckle.h"
 
 namespace telestrain {
@@ -138,7 +139,9 @@ TEST_F(Field, HopelessPlacesAreReportedAndTheirSurroundingsMeasured) {
       EXPECT_EQ(status, MatchStatus::kMasked);
     } else if (Away(c, black) < half - subset_half) {
       EXPECT_EQ(status, MatchStatus::kLowContrast);
-    } else if (Away(c, covered) < 8 || Away(c, other) < 8) {
+    } else if (Away(c, covered) < 8) {  // black in the image
+      EXPECT_EQ(status, MatchStatus::kSaturated);
+    } else if (Away(c, other) < 8) {
       EXPECT_TRUE(status == MatchStatus::kNotConverged || status == MatchStatus::kLowCorrelation)
           << c.transpose() << ": " << ToText(status);
     } else if (std::min({Away(c, black), Away(c, covered), Away(c, other)}) >
@@ -177,6 +180,26 @@ TEST_F(Field, AnotherPatternLosesAllPoints) {
   for (const FieldPoint& point : Correlate(reference_, other, options).points) {
     EXPECT_FALSE(point.match.ok());
     EXPECT_TRUE(std::isnan(point.strain(0, 0)));
+  }
+}
+
+// The smallest bands have 64 rows.
+TEST_F(Field, ReferencesInBandsGiveTheBitsOfTheWhole) {
+  const ShapeFunction map = Turn(1);
+  const GrayImage after = speckle_.Render(kWidth, kHeight, map, kAbout);
+  FieldOptions options = Options();
+  options.correlation.subset_px = 35;
+  const CorrelationField whole = (*FieldTracker::Start(before_, options)).Track(after);
+  options.max_band_pixels = 1;
+  const CorrelationField bands = (*FieldTracker::Start(before_, options)).Track(after);
+  ASSERT_EQ(whole.points.size(), bands.points.size());
+  for (std::size_t i = 0; i < whole.points.size(); ++i) {
+    const SubsetMatch &a = whole.points[i].match, &b = bands.points[i].match;
+    EXPECT_EQ(a.status, b.status) << i;
+    EXPECT_EQ(a.shape.displacement_px, b.shape.displacement_px) << i;
+    EXPECT_EQ(a.shape.gradient, b.shape.gradient) << i;
+    EXPECT_EQ(a.zncc, b.zncc) << i;
+    EXPECT_EQ(a.covariance, b.covariance) << i;
   }
 }
 
