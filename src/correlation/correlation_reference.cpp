@@ -62,7 +62,7 @@ CorrelationReference::CorrelationReference(const GrayImage& image, const PixelRe
   const ImageView view = View(image, region);
   const PixelRegion whole{0, 0, region.width, region.height};
   const std::vector<float> blur = GaussianKernel(options.prefilter_sigma_px);
-  const std::vector<float> slope = SlopeKernel(options.interpolation, options.prefilter_sigma_px);
+  const std::vector<float> slope = SlopeKernel(options.prefilter_sigma_px);
   blurred_noise_variance_ = std::pow(NoiseVarianceAfter(blur), 2);
   const auto filtered = [&](const std::vector<float>& along_x, const std::vector<float>& along_y) {
     std::vector<float> out(static_cast<std::size_t>(region.width) * region.height + kTail);

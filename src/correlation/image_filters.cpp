@@ -145,14 +145,9 @@ std::vector<float> CoefficientKernel(Interpolation interpolation, double sigma_p
   return ToFloat(Trimmed(kernel), 1);
 }
 
-std::vector<float> SlopeKernel(Interpolation interpolation, double sigma_px) {
-  // The spline's slope at the nodes around a pixel, in the order of a correlation.
-  const std::vector<double> slopes =
-      interpolation == Interpolation::kCubic
-          ? std::vector<double>{-0.5, 0, 0.5}
-          : std::vector<double>{-1. / 24, -10. / 24, 0, 10. / 24, 1. / 24};
-  const std::vector<double> smooth = Convolve(InverseSpline(interpolation), Gaussian(sigma_px));
-  return ToFloat(Trimmed(Convolve(smooth, slopes)), 0);
+std::vector<float> SlopeKernel(double sigma_px) {
+  const std::vector<double> slopes{1. / 12, -8. / 12, 0, 8. / 12, -1. / 12};
+  return ToFloat(Convolve(Gaussian(sigma_px), slopes), 0);
 }
 
 ImageView View(const GrayImage& image, const PixelRegion& region) {

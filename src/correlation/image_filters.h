@@ -21,8 +21,10 @@ std::vector<float> GaussianKernel(double sigma_px);
 // inverse of the spline's, whose poles decay (0.43^k, 0.27^k). Cut where the rest sums to less than
 // 1e-7 of the whole; normalised.
 std::vector<float> CoefficientKernel(Interpolation interpolation, double sigma_px);
-// The slope at whole pixels of the spline through the blurred image, along one direction.
-std::vector<float> SlopeKernel(Interpolation interpolation, double sigma_px);
+// The slope of the blurred image at whole pixels along one direction, by differences of fourth
+// order. They give less weight to detail near two pixels a period than the slope of the spline,
+// where the interpolation errs most and the noise outweighs the pattern.
+std::vector<float> SlopeKernel(double sigma_px);
 
 // Grey levels in memory: row by row, rows `stride` apart.
 struct ImageView {

@@ -18,7 +18,10 @@ struct CorrelationOptions {
   int subset_px = 61;   // odd side of the square subset
   int shape_order = 1;  // 0: shift, 1: affine, 2: quadratic shape function
   Interpolation interpolation = Interpolation::kQuintic;
-  double prefilter_sigma_px = 0.7;  // Gaussian blur of both images: removes interpolation bias
+  // Gaussian blur of both images: removes interpolation bias and costs noise. The least that keeps
+  // the bias below 0.2 mpx on discs of paint with edges of 0.7 px (measured with 33 px: 0.52, 0.28,
+  // 0.17, 0.11 mpx at 0, 0.5, 0.6, 0.7 px; the noise there is 5 % above the limit, 8 % at 0.7 px).
+  double prefilter_sigma_px = 0.6;
   int max_iterations = 30;
   // On the step of one iteration: the root of the summed squares of its parameters, those of
   // gradients and curvatures as they move the end of a half side.

@@ -252,7 +252,7 @@ Json MakeStrain() {
                  {"shape_function", "affine"},
                  {"interpolant", "quintic B-spline"},
                  {"criterion", "ZNSSD"},
-                 {"prefilter_sigma_px", 0.7},
+                 {"prefilter_sigma_px", 0.6},
                  {"virtual_strain_gauge_mm", 1.32}}},
                {"base_length_mm", 27.7014},
                {"states", Json::array()}};

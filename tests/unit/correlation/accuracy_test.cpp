@@ -38,7 +38,6 @@ MeanError MeasureMap(const Speckle& speckle, const ShapeFunction& map,
   return mean;
 }
 
-// The aim of the design is 0.2 mpx; 0.5 mpx is the limit.
 TEST(Accuracy, SubpixelShiftsHaveNoBias) {
   const Speckle speckle(1, kSide, kSide);
   for (int tenth = 0; tenth <= 10; ++tenth) {
@@ -63,7 +62,9 @@ TEST(Accuracy, ThePrefilterRemovesTheBiasOfSharpSpeckle) {
     worst_px = std::max(worst_px, after.displacement_px.cwiseAbs().maxCoeff());
   }
   EXPECT_LT(worst_px, 0.4e-3);
-  EXPECT_LT(worst_px, worst_raw_px / 3);
+  // The quintic spline errs at periods of 2 to 4 px; of their squares the two blurs leave
+  // exp(-sigma^2 (2 pi / 4)^2) = 0.41 or less.
+  EXPECT_LT(worst_px, worst_raw_px * 0.5);
 }
 
 // One microstrain: far below what noise leaves.

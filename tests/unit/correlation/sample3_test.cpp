@@ -2,40 +2,22 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
-#include <cstdlib>
-#include <filesystem>
-#include <opencv2/imgcodecs.hpp>
 
+#include "tests/unit/correlation/challenge_images.h"
 #include "tests/unit/correlation/speckle.h"
 
 namespace telestrain {
 namespace {
 
-// TELESTRAIN_DIC_CHALLENGE names the folder of the images, else it is looked for beside the
-// sources.
-std::filesystem::path Folder() {
-  const char* named = std::getenv("TELESTRAIN_DIC_CHALLENGE");
-  const std::filesystem::path beside =
-      std::filesystem::path(TELESTRAIN_SOURCE_DIR).parent_path() / "shared/data/dic_challenge";
-  return (named ? std::filesystem::path(named) : beside) / "challenge1_sample3";
-}
-
-GrayImage ReadTiff(const std::string& name) {
-  cv::Mat pixels = cv::imread((Folder() / name).string(), cv::IMREAD_GRAYSCALE);
-  EXPECT_FALSE(pixels.empty()) << name;
-  GrayImage image{pixels.cols, pixels.rows, 255, {}};
-  for (int y = 0; y < pixels.rows; ++y)
-    for (int x = 0; x < pixels.cols; ++x) image.pixels.push_back(pixels.at<unsigned char>(y, x));
-  return image;
-}
-
-// The best of the programs compared for the design has 1.7 mpx bias; they all have 3.4 to 3.6 mpx
-// of noise, of which the blur costs a few per cent on this fine pattern.
+// The bar of the design is 1.7 mpx bias. Its noise of 3.4 mpx is not reached: on these points the
+// engine has 3.46 mpx without any blur, which is the limit of the images, and 3.59 mpx with the
+// default blur. 1296 points x 11 images x u and v, of which a seventh do not overlap, know the
+// standard deviation to 1.1 %: four of these.
 TEST(Sample3, ShiftsAreAsGoodAsTheBestKnown) {
-  if (!std::filesystem::exists(Folder()))
-    GTEST_SKIP() << "no DIC Challenge images; name their folder by TELESTRAIN_DIC_CHALLENGE";
+  const std::filesystem::path folder = ChallengeFolder("challenge1_sample3");
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << kNoChallengeImages;
   const CorrelationOptions options{.subset_px = 33};
-  const GrayImage before = ReadTiff("Sample3 Reference.tif");
+  const GrayImage before = ReadChallengeImage(folder / "Sample3 Reference.tif");
   const PixelRegion region{0, 0, before.width, before.height};
   const CorrelationReference reference(before, region, options);
   const auto centers = GridOfCenters(region, 40, 12);
@@ -44,7 +26,7 @@ TEST(Sample3, ShiftsAreAsGoodAsTheBestKnown) {
     char name[80];
     std::snprintf(name, sizeof(name), "Sample3-%03d X%.2f Y%.2f N2 C0 R0.tif", step, 0.1 * step,
                   0.1 * step);
-    const PreparedImage image(ReadTiff(name), region, options);
+    const PreparedImage image(ReadChallengeImage(folder / name), region, options);
     Eigen::Vector2d sum = Eigen::Vector2d::Zero(), squares = Eigen::Vector2d::Zero();
     for (const auto& match : CorrelatePoints(reference, centers, image, {ShapeFunction()})) {
       ASSERT_TRUE(match.ok()) << ToText(match.status);
@@ -58,8 +40,8 @@ TEST(Sample3, ShiftsAreAsGoodAsTheBestKnown) {
     sum_sd_px += (squares / centers.size() - mean.cwiseAbs2()).cwiseSqrt().mean();
   }
   std::printf("max bias %.2f mpx, mean sd %.2f mpx\n", 1000 * worst_bias_px, 1000 * sum_sd_px / 11);
-  EXPECT_LT(worst_bias_px, 2.0e-3);
-  EXPECT_LT(sum_sd_px / 11, 3.8e-3);
+  EXPECT_LE(worst_bias_px, 1.7e-3);
+  EXPECT_LT(sum_sd_px / 11, 3.59e-3 * 1.044);
 }
 
 }  // namespace

@@ -11,6 +11,20 @@
 
 namespace telestrain {
 
+// A pattern after the map: what was at `about` + d is seen at about + d + displacement + gradient
+// d.
+template <class Pattern>
+GrayImage RenderPattern(const Pattern& pattern, int width, int height, const ShapeFunction& map,
+                        const Eigen::Vector2d& about) {
+  GrayImage image{width, height, 255, {}};
+  const Eigen::Matrix2d inverse = (Eigen::Matrix2d::Identity() + map.gradient).inverse();
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      image.pixels.push_back(static_cast<float>(
+          pattern.At(about + inverse * (Eigen::Vector2d(x, y) - about - map.displacement_px))));
+  return image;
+}
+
 // A speckle pattern given by a formula, so that a displaced image is as exact as the reference:
 // round spots of random place and strength, each a Gaussian of the distance to its centre.
 class Speckle {
@@ -44,17 +58,9 @@ class Speckle {
     return sum;
   }
 
-  // The pattern after the map: what was at `about` + d is seen at about + d + displacement
-  // + gradient d.
   GrayImage Render(int width, int height, const ShapeFunction& map = {},
                    const Eigen::Vector2d& about = Eigen::Vector2d::Zero()) const {
-    GrayImage image{width, height, 255, {}};
-    const Eigen::Matrix2d inverse = (Eigen::Matrix2d::Identity() + map.gradient).inverse();
-    for (int y = 0; y < height; ++y)
-      for (int x = 0; x < width; ++x)
-        image.pixels.push_back(static_cast<float>(
-            At(about + inverse * (Eigen::Vector2d(x, y) - about - map.displacement_px))));
-    return image;
+    return RenderPattern(*this, width, height, map, about);
   }
 
  private:

@@ -88,8 +88,8 @@ TEST_F(Masked, LessThanHalfInsideIsMasked) {
   }
 }
 
-// The surroundings move the other way and hold pixels that are no numbers; 40 px inside the mask's
-// edge neither blur nor spline reaches them, but the subset itself does.
+// The surroundings, from 8 px beyond the mask's edge on, are another pattern with the other sign in
+// the second image. They stay finite: the blur and the spline of pixels at the edge still see them.
 TEST_F(Masked, PixelsOutsideNeverCount) {
   const Speckle speckle(23, kSide, kSide, 2.0), other(24, kSide, kSide, 2.0);
   ShapeFunction map;
