@@ -118,7 +118,8 @@ TEST_F(Tracker, ReplacesTheReferenceWhenThePatternChanges) {
 }
 
 // Sums over images with a reference replaced: 25 points that do not overlap x 20 runs, u and v,
-// know the standard deviation to 2.2 %. The changing pattern counts as noise: 2 %.
+// know the standard deviation to 2.2 %: four of these. The noise that the interpolation smooths
+// makes the prediction low by a further 3 % (SubsetMatch::sigma_gray).
 TEST_F(Tracker, ComposedUncertaintyIsHonest) {
   FieldOptions options = Options();
   options.step_px = 36;
@@ -155,7 +156,7 @@ TEST_F(Tracker, ComposedUncertaintyIsHonest) {
     for (const auto& run : found) observed += (run[i] - mean).squaredNorm();
   }
   observed *= kRuns / (kRuns - 1.0);
-  EXPECT_NEAR(std::sqrt(predicted / observed), 1, 0.1) << count;
+  EXPECT_NEAR(std::sqrt(predicted / observed), 1, 4 * 0.022 + 0.03) << count;
 }
 
 // Covered in one image, there again in the next, also when the reference is replaced meanwhile.
