@@ -19,51 +19,20 @@ using Keys = std::map<std::string, Key>;
 
 constexpr const char* kSchema = "telestrain.template/1";
 
+// clang-format off
+constexpr const char* kTableNames[] = {
+    "summary", "document", "artefacts", "software", "input-files", "result-files", "lens",
+    "views", "lens-of-view", "reprojection", "poses", "boards", "boards-rejected", "stage",
+    "model-tests", "gauge", "ruler", "ruler-summary", "ruler-budget", "ruler-rejected",
+    "strain-states", "strain-beam", "strain-comparison", "strain-budget", "strain-rejected",
+    "pipe", "correlation", "corners-rejected", "mrcal-check", "mrcal-facts", "residual-tests",
+    "residual-views", "residual-findings", "residual-boards", "outlier-replay", "uncertainty",
+    "pinhole", "decisions", "ruler-trends", "ruler-acceptance", "sequence", "sequence-cycles",
+    "extensometer-class", "gauge-outliers"};
+// clang-format on
+
 const std::vector<std::string>& TableNames() {
-  static const std::vector<std::string> kNames = {"summary",
-                                                  "document",
-                                                  "artefacts",
-                                                  "software",
-                                                  "input-files",
-                                                  "result-files",
-                                                  "lens",
-                                                  "views",
-                                                  "lens-of-view",
-                                                  "reprojection",
-                                                  "poses",
-                                                  "boards",
-                                                  "boards-rejected",
-                                                  "stage",
-                                                  "model-tests",
-                                                  "gauge",
-                                                  "ruler",
-                                                  "ruler-summary",
-                                                  "ruler-budget",
-                                                  "ruler-rejected",
-                                                  "strain-states",
-                                                  "strain-beam",
-                                                  "strain-comparison",
-                                                  "strain-budget",
-                                                  "strain-rejected",
-                                                  "pipe",
-                                                  "correlation",
-                                                  "corners-rejected",
-                                                  "mrcal-check",
-                                                  "mrcal-facts",
-                                                  "residual-tests",
-                                                  "residual-views",
-                                                  "residual-findings",
-                                                  "residual-boards",
-                                                  "outlier-replay",
-                                                  "uncertainty",
-                                                  "pinhole",
-                                                  "decisions",
-                                                  "ruler-trends",
-                                                  "ruler-acceptance",
-                                                  "sequence",
-                                                  "sequence-cycles",
-                                                  "extensometer-class",
-                                                  "gauge-outliers"};
+  static const std::vector<std::string> kNames(std::begin(kTableNames), std::end(kTableNames));
   return kNames;
 }
 

@@ -65,8 +65,9 @@ class CorrelateRun {
     if (setup_.mask) inputs.push_back(setup_.mask->path);
     TELESTRAIN_RETURN_IF_ERROR(CheckOutputs(folder_, stems_, inputs));
     TELESTRAIN_RETURN_IF_ERROR(EnsureFolder(folder_));
-    std::error_code ignored;  // an older one would describe other files than those around it
-    fs::remove(folder_ / kRecordFile, ignored);
+    std::error_code ignored;  // older ones would describe other files than those around them
+    for (const char* name : {kRecordFile, "pattern.txt", "pattern.json", "pattern.png"})
+      fs::remove(folder_ / name, ignored);
     backdrop_.emplace(reference_.image, viz::kFieldImageWidth_px, viz::kFieldImageHeight_px);
     return {};
   }

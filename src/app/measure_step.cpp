@@ -1,3 +1,4 @@
+#include <atomic>
 #include <csignal>
 #include <nlohmann/json.hpp>
 
@@ -9,6 +10,7 @@
 #include "base/json_file.h"
 #include "base/numbers.h"
 #include "measurement/pipe_file.h"
+#include "session/pipe_table.h"
 #include "target/image_file.h"
 
 namespace telestrain {
@@ -58,7 +60,7 @@ class TabledImages : public PipeStream {
   int kept_ = 0;
 };
 
-WatchedFolder* watched_folder = nullptr;
+std::atomic<WatchedFolder*> watched_folder = nullptr;
 
 // Lets the watch end when the person or the system says so, with everything written.
 class StopOnSignal {
@@ -66,7 +68,10 @@ class StopOnSignal {
   explicit StopOnSignal(WatchedFolder& watched) {
     watched_folder = &watched;
     struct sigaction action {};
-    action.sa_handler = [](int) { watched_folder->Stop(); };
+    action.sa_flags = SA_RESTART;  // what is being written is written
+    action.sa_handler = [](int) {
+      if (WatchedFolder* folder = watched_folder) folder->Stop();
+    };
     ::sigaction(SIGINT, &action, &before_[0]);
     ::sigaction(SIGTERM, &action, &before_[1]);
   }
@@ -113,9 +118,19 @@ Result<PipeMeasurement> MeasureTable(const Session& session, const fs::path& res
   return measurement;
 }
 
-Result<PipeMeasurement> MeasureWatched(const Session& session, const fs::path& results,
+// The session with the gauge columns of the folder's own table, if there is one.
+Result<Session> WithColumnsOf(const fs::path& folder, Session session) {
+  std::error_code code;
+  if (!fs::exists(folder / "pipe.csv", code)) return session;
+  TELESTRAIN_ASSIGN_OR_RETURN(PipeTable table, ReadPipeTableOf(session, folder / "pipe.csv"));
+  session.gauge_columns = std::move(table.gauge_columns);
+  return session;
+}
+
+Result<PipeMeasurement> MeasureWatched(const Session& described, const fs::path& results,
                                        const PipeOptions& options, const WatchChoices& choices,
                                        Console& console) {
+  TELESTRAIN_ASSIGN_OR_RETURN(const Session session, WithColumnsOf(choices.folder, described));
   TELESTRAIN_ASSIGN_OR_RETURN(const ArrayCalibration array, LoadCalibration(session, results));
   TELESTRAIN_ASSIGN_OR_RETURN(const auto made_from, MadeFrom(session, results, options));
   TELESTRAIN_ASSIGN_OR_RETURN(StrainJournal journal, StrainJournal::Open(results, made_from));
@@ -132,6 +147,8 @@ Status WriteMeasurement(const PipeMeasurement& measurement, const fs::path& resu
   TELESTRAIN_ASSIGN_OR_RETURN(
       const auto made_from,
       HashesOf(results, {"inputs.json", "calibration.json", "strain_states.jsonl"}));
+  TELESTRAIN_RETURN_IF_ERROR(WriteFileAtomically(results / "strain_components.csv",
+                                                 StrainComponentsCsv(measurement.states)));
   TELESTRAIN_RETURN_IF_ERROR(
       WriteJson(results / "strain.json", StrainJson(measurement, made_from)));
   console.Say("measure    " + CountText(measurement.states.size(), "state") + ", " +

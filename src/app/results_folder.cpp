@@ -27,7 +27,8 @@ const std::vector<std::string>& OutputsOf(Step step) {
       {Step::kCalibrate, {"calibration.json", "residuals.csv", "comparison.json"}},
       {Step::kDiagnose, {"mrcal.json"}},
       {Step::kVerify, {"ruler.csv", "ruler.json"}},
-      {Step::kMeasure, {"strain.csv", "strain.json", "strain_states.jsonl"}},
+      {Step::kMeasure,
+       {"strain.csv", "strain_components.csv", "strain.json", "strain_states.jsonl"}},
       {Step::kRender, {"pictures/array.png", "pictures/targets.png", "pictures/pipe_strain.png"}},
       {Step::kReport, {"results.json", "report.pdf"}}};
   return kOutputs.at(step);
@@ -149,6 +150,7 @@ Status RemoveSurfacesFrom(const fs::path& results, std::size_t first) {
 
 Status RemoveEndOfMeasure(const fs::path& results) {
   TELESTRAIN_RETURN_IF_ERROR(Remove(results / "strain.json"));
+  TELESTRAIN_RETURN_IF_ERROR(Remove(results / "strain_components.csv"));
   TELESTRAIN_RETURN_IF_ERROR(RemoveNamed(results, IsHalfWritten));
   return RemoveOutputsFrom(results, Step::kRender);
 }

@@ -51,12 +51,14 @@ Status StrainJournal::ReadKnown() {
   std::ifstream file(results_ / kRecords, std::ios::binary);
   for (std::string line; std::getline(file, line) && !file.eof();) {
     auto record = ReadStateRecord(line);
-    if (!record || !Fits(*record)) return {};
+    if (!record || !Fits(*record)) break;
     const auto found = Sha256HexOfFile(results_ / SurfaceFileName(known_.size()));
-    if (!found || *found != record->surface_sha256) return {};
+    if (!found || *found != record->surface_sha256) break;
     known_.push_back(std::move(record).value());
     lines_.push_back(line + '\n');
   }
+  // Of other inputs or options: nothing of it may outlive a reference that cannot be measured.
+  if (known_.empty()) return RemoveOutputsFrom(results_, Step::kMeasure);
   return {};
 }
 
@@ -93,17 +95,14 @@ Status StrainJournal::Settle() {
   // The records first: a state that they name must be whole.
   TELESTRAIN_RETURN_IF_ERROR(WriteIfOther(results_ / kRecords, records));
   TELESTRAIN_RETURN_IF_ERROR(RemoveSurfacesFrom(results_, count_));
-  TELESTRAIN_RETURN_IF_ERROR(WriteIfOther(results_ / kTable, header_ + csv_));
+  TELESTRAIN_RETURN_IF_ERROR(WriteIfOther(results_ / kTable, StrainCsvHeader() + csv_));
   settled_ = true;
   return {};
 }
 
 Status StrainJournal::Add(const PipeSequence& sequence, const PipeImage& image,
                           const MeasuredState& state) {
-  if (count_ == 0) {
-    reference_sha256_ = image.sha256;
-    header_ = StrainCsvHeader(state);
-  }
+  if (count_ == 0) reference_sha256_ = image.sha256;
   if (image.known) {
     TELESTRAIN_CHECK(!settled_ && count_ < known_.size(), "a known state after one that is not");
     csv_ += StrainCsvLine(state);

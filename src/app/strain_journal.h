@@ -46,7 +46,7 @@ class StrainJournal {
   std::map<std::string, std::string> made_from_;
   std::vector<StateRecord> known_;
   std::vector<std::string> lines_;  // of the known records
-  std::string header_, csv_;        // until the files are settled
+  std::string csv_;                 // until the files are settled
   std::string reference_sha256_;
   std::size_t count_ = 0;
   bool settled_ = false;

@@ -56,8 +56,9 @@ Result<std::optional<PipeImage>> WatchedFolder::Next() {
     if (choices_.until > 0 && kept_ >= choices_.until) break;
     // The states under way may be enough.
     if (choices_.until > 0 && handed_out_ - skipped_ >= choices_.until) continue;
-    TELESTRAIN_RETURN_IF_ERROR(ReadTable());
+    TELESTRAIN_ASSIGN_OR_RETURN(const bool whole, ReadTable());
     LookAtFiles();
+    if (!whole) continue;
     if (auto image = TakeFirstReady()) {
       ++handed_out_;
       return image;
@@ -92,19 +93,33 @@ Result<std::optional<PipeImage>> WatchedFolder::NextKnown() {
   return std::optional<PipeImage>(std::move(image));
 }
 
-// A table may grow with the images.
-Status WatchedFolder::ReadTable() {
+// A table may grow with the images. While it is being written, or replaced, it is not whole, and no
+// image is handed out with half a row.
+Result<bool> WatchedFolder::ReadTable() {
+  const fs::path path = choices_.folder / "pipe.csv";
   std::error_code code;
-  if (!fs::exists(choices_.folder / "pipe.csv", code)) {
-    table_ = session_.pipe_states;
-    return {};
+  if (!fs::exists(path, code)) {
+    if (!table_seen_) table_ = session_.pipe_states;
+    return !table_seen_;
   }
-  auto rows = ReadPipeStates(choices_.folder / "pipe.csv");
-  // Half a table while it is being written: the next look shows the whole one.
-  if (!rows && !table_.empty()) return {};
-  if (!rows) return rows.error();
-  table_ = std::move(rows).value();
-  return {};
+  if (!table_seen_) table_since_ = Clock::now();
+  table_seen_ = true;
+  const auto text = ReadFile(path);
+  if (text && *text == table_text_ && !table_text_.empty()) return true;
+  const bool ends = text && !text->empty() && text->back() == '\n';
+  auto table = ReadPipeTableOf(session_, path);
+  if (!ends || !table) {
+    if (Clock::now() - table_since_ < kGiveUp) return false;
+    if (!table) return table.error();
+  }
+  table_since_ = Clock::now();
+  if (table->gauge_columns != session_.gauge_columns)
+    return BadInput(path.string() +
+                    ": has other gauge columns than when the watch began; a table with all its "
+                    "columns must be there from the start");
+  table_ = std::move(table->states);
+  table_text_ = text ? *text : std::string();
+  return true;
 }
 
 void WatchedFolder::LookAtFiles() {

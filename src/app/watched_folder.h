@@ -54,7 +54,7 @@ class WatchedFolder : public PipeStream {
   };
 
   Result<std::optional<PipeImage>> NextKnown();
-  Status ReadTable();
+  Result<bool> ReadTable();  // whether it is whole
   void LookAtFiles();
   std::optional<PipeImage> TakeFirstReady();
   std::optional<PipeImage> Decode(const std::string& name, File& file);
@@ -69,6 +69,9 @@ class WatchedFolder : public PipeStream {
   std::atomic<int> kept_ = 0, skipped_ = 0;
   // Of the thread that calls Next.
   std::vector<PipeState> table_;
+  std::string table_text_;  // that `table_` was read from
+  bool table_seen_ = false;
+  std::chrono::steady_clock::time_point table_since_;  // not whole
   std::map<std::string, File> files_;
   int handed_out_ = 0;
   bool all_known_handed_out_ = false;

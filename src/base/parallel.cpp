@@ -7,10 +7,12 @@
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
+#include <cstdlib>
 #include <exception>
 #include <limits>
 #include <list>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -71,7 +73,7 @@ class Job {
 };
 
 // Threads that stay between calls. The caller works too and waits only for threads that joined: a
-// call ends though all others are busy, or missing in a forked process.
+// call ends though all others are busy. A forked process has none of them, and works alone.
 class ThreadPool {
  public:
   ~ThreadPool() {
@@ -81,12 +83,10 @@ class ThreadPool {
       ++changes_;
     }
     wake_.notify_all();
-    for (std::thread& worker : workers_)
-      if (process_ == getpid())
-        worker.join();
-      else
-        worker.detach();
+    for (std::thread& worker : workers_) worker.join();
   }
+
+  bool HasItsThreads() const { return process_ == getpid(); }
 
   void Run(int helpers, Job& job) {
     Announce(std::min(helpers, std::max(kMostWorkers, Cores())), job);
@@ -103,7 +103,10 @@ class ThreadPool {
  private:
   void Announce(int helpers, Job& job) {
     const std::lock_guard lock(mutex_);
-    while (static_cast<int>(workers_.size()) < helpers) workers_.emplace_back([this] { Work(); });
+    try {
+      while (static_cast<int>(workers_.size()) < helpers) workers_.emplace_back([this] { Work(); });
+    } catch (const std::system_error&) {  // no more threads to be had: those that are do the work
+    }
     job.wanted = helpers;
     jobs_.push_back(&job);
     ++changes_;
@@ -158,9 +161,17 @@ class ThreadPool {
   std::vector<std::thread> workers_;
 };
 
+// Made at the first call and ended by the process that made it: a forked one would wait for threads
+// that it does not have.
 ThreadPool& Pool() {
-  static ThreadPool pool;
-  return pool;
+  static ThreadPool* const pool = [] {
+    auto* made = new ThreadPool;
+    std::atexit([] {
+      if (Pool().HasItsThreads()) delete &Pool();
+    });
+    return made;
+  }();
+  return *pool;
 }
 
 }  // namespace
@@ -169,7 +180,7 @@ void ParallelFor(int count, int threads, const std::function<void(int)>& work) {
   if (count <= 0) return;
   Job job(count, work);
   const int most = std::min(threads > 0 ? threads : Cores(), count);
-  if (most == 1 || inside_a_call) {
+  if (most == 1 || inside_a_call || !Pool().HasItsThreads()) {
     job.Run();
   } else {
     inside_a_call = true;

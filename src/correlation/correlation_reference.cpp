@@ -87,36 +87,43 @@ GrayImage CorrelationReference::BlurredImage() const {
   return {region_.width, region_.height, 255, {gray_.begin(), gray_.begin() + pixels}};
 }
 
+// Nothing where the subset can be matched.
+std::optional<MatchStatus> CorrelationReference::WhyUnusable(const PixelRegion& subset) const {
+  if (subset.x < kSplineMargin || subset.y < kSplineMargin ||
+      subset.x + subset.width > region_.width - kSplineMargin ||
+      subset.y + subset.height > region_.height - kSplineMargin)
+    return MatchStatus::kOutside;
+  const double pixels = static_cast<double>(subset.width) * subset.height;
+  if (inside_ && static_cast<double>(inside_->Count(subset)) < kLeastShareInside * pixels)
+    return MatchStatus::kMasked;
+  return {};
+}
+
 SubsetMatch CorrelationReference::Match(const Eigen::Vector2i& center_px,
                                         const PreparedImage& image, const ShapeFunction& start,
                                         int threads) const {
   TELESTRAIN_CHECK(image.interpolation_ == options_.interpolation,
                    "the image must be prepared with the options of the reference");
   const int side = options_.subset_px, half = side / 2;
-  const int left = center_px.x() - region_.x - half, top = center_px.y() - region_.y - half;
-  SubsetMatch failed;
-  failed.status = MatchStatus::kOutside;
-  failed.shape = start;
-  if (left < kSplineMargin || top < kSplineMargin || left + side > region_.width - kSplineMargin ||
-      top + side > region_.height - kSplineMargin)
+  const PixelRegion part{center_px.x() - region_.x - half, center_px.y() - region_.y - half, side,
+                         side};
+  if (const auto reason = WhyUnusable(part)) {
+    SubsetMatch failed;
+    failed.status = *reason;
+    failed.shape = start;
     return failed;
-  const PixelRegion part{left, top, side, side};
-  const std::int64_t pixels = static_cast<std::int64_t>(side) * side;
-  const std::int64_t counted = inside_ ? inside_->Count(part) : pixels;
-  failed.status = MatchStatus::kMasked;
-  if (static_cast<double>(counted) < kLeastShareInside * static_cast<double>(pixels)) return failed;
-
-  const std::size_t first = static_cast<std::size_t>(top) * region_.width + left;
-  const bool masked = counted < pixels;
+  }
+  const std::size_t first = static_cast<std::size_t>(part.y) * region_.width + part.x;
+  const bool masked = inside_ && inside_->Count(part) < static_cast<std::int64_t>(side) * side;
   SubsetProblem problem;
   problem.subset = {&gray_[first],
                     &gradient_x_[first],
                     &gradient_y_[first],
                     region_.width,
                     side,
-                    masked ? inside_->Row(top) : nullptr,
+                    masked ? inside_->Row(part.y) : nullptr,
                     masked ? inside_->words_per_row() : 0,
-                    left};
+                    part.x};
   problem.noise_shares = noise_shares_->In(part);
   problem.reference_noise_variance = blurred_noise_variance_;
   problem.image_noise_variance = image.blurred_noise_variance_;

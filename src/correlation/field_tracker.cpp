@@ -110,6 +110,9 @@ class FieldTracker::State {
                            ? std::optional(StartFor(points_[i], *totals[i]))
                            : std::nullopt);
     std::vector<SubsetMatch> again = Match(image, starts);
+    // Points that the new reference does not show are lost with it, which counts against it.
+    for (std::size_t i = 0; i < again.size(); ++i)
+      if (!points_[i].known && !masked_[i]) again[i].status = MatchStatus::kLowCorrelation;
     if (MedianCorrelation(again) > MedianCorrelation(matches)) {
       ++updates_;
       matches = std::move(again);

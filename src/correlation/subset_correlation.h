@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -120,6 +121,9 @@ class CorrelationReference {
                     const ShapeFunction& start, int threads = 1) const;
 
  private:
+  // `subset` counts from the region.
+  std::optional<MatchStatus> WhyUnusable(const PixelRegion& subset) const;
+
   PixelRegion region_;
   CorrelationOptions options_;
   std::vector<float> gray_, gradient_x_, gradient_y_;

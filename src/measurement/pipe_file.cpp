@@ -15,6 +15,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 constexpr double kMicro = 1e6;
+constexpr const char* kShapeNames[] = {"shift", "affine", "quadratic"};  // by order
 constexpr double kDegPerRad = 57.29577951308232;
 
 Json ArrayOf(const Eigen::Vector3d& v) { return Json::array({v.x(), v.y(), v.z()}); }
@@ -133,31 +134,33 @@ std::string SurfaceFileName(std::size_t state) {
   return "pipe_" + number + ".vtp";
 }
 
-std::string StrainCsvHeader(const MeasuredState& first) {
-  std::vector<std::string> header{"image",
-                                  "cycle",
-                                  "step",
-                                  "axial_microstrain",
-                                  "standard_uncertainty_microstrain",
-                                  "local_a_microstrain",
-                                  "local_b_microstrain",
-                                  "gauge_mean_microstrain"};
-  for (std::string& column : StrainDetailColumns(first.strain)) header.push_back(std::move(column));
-  return CsvLine(header);
+std::string StrainCsvHeader() {
+  return "image,cycle,step,axial_microstrain,standard_uncertainty_microstrain,local_a_microstrain,"
+         "local_b_microstrain,gauge_mean_microstrain\n";
 }
 
 std::string StrainCsvLine(const MeasuredState& state) {
-  std::vector<std::string> row{
-      state.table.image,
-      state.table.cycle,
-      state.table.step,
-      FormatFixed(kMicro * state.strain.axial_strain, 3),
-      FormatFixed(kMicro * state.strain.standard_uncertainty, 3),
-      FormatFixed(LocalMicrostrain(state.strain, 0), 3),
-      FormatFixed(LocalMicrostrain(state.strain, 1), 3),
-      state.gauge_mean_microstrain ? FormatFixed(*state.gauge_mean_microstrain, 3) : std::string()};
-  for (std::string& cell : StrainDetailCells(state.strain)) row.push_back(std::move(cell));
-  return CsvLine(row);
+  return CsvLine({state.table.image, state.table.cycle, state.table.step,
+                  FormatFixed(kMicro * state.strain.axial_strain, 3),
+                  FormatFixed(kMicro * state.strain.standard_uncertainty, 3),
+                  FormatFixed(LocalMicrostrain(state.strain, 0), 3),
+                  FormatFixed(LocalMicrostrain(state.strain, 1), 3),
+                  state.gauge_mean_microstrain ? FormatFixed(*state.gauge_mean_microstrain, 3)
+                                               : std::string()});
+}
+
+std::string StrainComponentsCsv(const std::vector<MeasuredState>& states) {
+  std::string text;
+  for (const MeasuredState& state : states) {
+    std::vector<std::string> header{"image", "cycle", "step"};
+    std::vector<std::string> row{state.table.image, state.table.cycle, state.table.step};
+    for (std::string& column : StrainDetailColumns(state.strain))
+      header.push_back(std::move(column));
+    for (std::string& cell : StrainDetailCells(state.strain)) row.push_back(std::move(cell));
+    if (text.empty()) text = CsvLine(header);
+    text += CsvLine(row);
+  }
+  return text;
 }
 
 nlohmann::ordered_json StrainJson(const PipeMeasurement& measurement,
@@ -186,8 +189,10 @@ nlohmann::ordered_json StrainJson(const PipeMeasurement& measurement,
           {"options",
            {{"subset_px", measurement.options.subset_px},
             {"step_px", grid.step_px},
-            {"shape_function", "affine"},
-            {"interpolant", "quintic B-spline"},
+            {"shape_function", kShapeNames[measurement.options.shape_order]},
+            {"interpolant", measurement.options.interpolation == Interpolation::kQuintic
+                                ? "quintic B-spline"
+                                : "cubic B-spline"},
             {"criterion", "ZNSSD"},
             {"prefilter_sigma_px", measurement.options.prefilter_sigma_px},
             {"virtual_strain_gauge_mm", 2 * kGaugeReach_steps * step_mm + subset_mm}}},

@@ -8,10 +8,13 @@
 
 namespace telestrain {
 
-// strain.csv: its header, whose columns are those of the first state, and the line of one state,
-// with their line ends.
-std::string StrainCsvHeader(const MeasuredState& first);
+// strain.csv: its header and the line of one state, with their line ends.
+std::string StrainCsvHeader();
 std::string StrainCsvLine(const MeasuredState& state);
+
+// strain_components.csv, one line per state: membrane, bending, torsion, mechanical strain and the
+// camera's strain at every gauge, each with its standard uncertainty.
+std::string StrainComponentsCsv(const std::vector<MeasuredState>& states);
 
 // strain.json; `made_from` names the inputs with their SHA-256.
 nlohmann::ordered_json StrainJson(const PipeMeasurement& measurement,

@@ -142,8 +142,11 @@ Result<PipeGeometry> MeasurePipeGeometry(const ArrayCalibration& array, const Pi
   for (const Eigen::Vector3d& point : points)
     if (std::abs(bent.shape.Distance_mm(point)) <= limit_mm) kept.push_back(point);
   constexpr double kAll_mm = 1e9;
-  const ShapeFit same_points = FitShape(kept, straight.shape, false, kAll_mm);
-  TestForBending(array, grid, bent, same_points.squares_mm2, geometry);
+  // Both fits that are compared use the same points.
+  const ShapeFit kept_straight = FitShape(kept, straight.shape, false, kAll_mm);
+  const ShapeFit kept_bent = FitShape(kept, bent.shape, true, kAll_mm);
+  if (kept_straight.ok && kept_bent.ok)
+    TestForBending(array, grid, kept_bent, kept_straight.squares_mm2, geometry);
   const ShapeFit& fit = geometry.is_bent ? bent : straight;
   geometry.shape = fit.shape;
   FillDiameter(array, grid, fit, geometry);

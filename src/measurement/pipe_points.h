@@ -43,7 +43,7 @@ struct TrackedState {
 struct PipeGrid {
   std::vector<StereoPair> pairs;
   std::vector<PipePoint> points;
-  Cylinder pipe;  // fitted to all points
+  Cylinder pipe;  // fitted to the points that face both views well
   double sigma_diameter_mm = 0;
   double surface_rms_mm = 0;
   std::map<std::string, int> rejected;  // reason -> grid points that were not matched

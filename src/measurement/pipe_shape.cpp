@@ -107,29 +107,39 @@ PipeShape Changed(const PipeShape& shape, const Vector7d& change) {
   return changed;
 }
 
+// Normal equations of the distances within the limit; sums and counts of `fit` are set anew.
+struct ShapeSystem {
+  Matrix7d normal = Matrix7d::Zero();
+  Vector7d right = Vector7d::Zero();
+};
+
+ShapeSystem Linearise(const std::vector<Eigen::Vector3d>& points, double limit_mm, ShapeFit& fit) {
+  ShapeSystem system;
+  fit.squares_mm2 = 0;
+  fit.used = 0;
+  for (const Eigen::Vector3d& point : points) {
+    const Eigen::Vector3d at = fit.shape.Straighten(point);
+    const double from_axis_mm = at.tail<2>().norm();
+    const double distance_mm = from_axis_mm - fit.shape.radius_mm;
+    if (std::abs(distance_mm) > limit_mm) continue;
+    const Eigen::Vector2d n = at.tail<2>() / from_axis_mm;
+    Vector7d row;
+    row << -n, -at.x() * n, -1, -0.5 * at.x() * at.x() * n;
+    system.normal += row * row.transpose();
+    system.right -= row * distance_mm;
+    fit.squares_mm2 += distance_mm * distance_mm;
+    ++fit.used;
+  }
+  return system;
+}
+
 ShapeFit FitShape(const std::vector<Eigen::Vector3d>& points, const PipeShape& start, bool bent,
                   double limit_mm) {
   ShapeFit fit;
   fit.shape = start;
   const int size = bent ? 7 : 5;
   for (int iteration = 0; iteration < kIterations; ++iteration) {
-    Matrix7d normal = Matrix7d::Zero();
-    Vector7d right = Vector7d::Zero();
-    fit.squares_mm2 = 0;
-    fit.used = 0;
-    for (const Eigen::Vector3d& point : points) {
-      const Eigen::Vector3d at = fit.shape.Straighten(point);
-      const double from_axis_mm = at.tail<2>().norm();
-      const double distance_mm = from_axis_mm - fit.shape.radius_mm;
-      if (std::abs(distance_mm) > limit_mm) continue;
-      const Eigen::Vector2d n = at.tail<2>() / from_axis_mm;
-      Vector7d row;
-      row << -n, -at.x() * n, -1, -0.5 * at.x() * at.x() * n;
-      normal += row * row.transpose();
-      right -= row * distance_mm;
-      fit.squares_mm2 += distance_mm * distance_mm;
-      ++fit.used;
-    }
+    const auto [normal, right] = Linearise(points, limit_mm, fit);
     if (fit.used <= size + 3) return fit;
     // Shifts, tilts and curvatures differ by powers of the base's length.
     const Eigen::VectorXd scale = normal.diagonal().head(size).cwiseSqrt().cwiseInverse();

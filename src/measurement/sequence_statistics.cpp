@@ -13,7 +13,7 @@ using Readings = std::vector<SequenceReading>;
 
 bool IsZero(const SequenceState& state, const SequenceState& reference, double coverage_factor) {
   if (!state.gauge_microstrain || !state.gauge_sigma_microstrain)
-    return state.step == reference.step;
+    return !state.step.empty() && state.step == reference.step;  // no label says nothing
   // Both readings of the change are uncertain.
   return std::abs(*state.gauge_microstrain) <=
          coverage_factor * std::sqrt(2.0) * *state.gauge_sigma_microstrain;
@@ -162,7 +162,8 @@ std::optional<Repeatability> RepeatabilityOf(const std::vector<SequenceState>& s
                                              const Readings& readings) {
   std::map<std::string, Readings> by_step;
   for (const SequenceReading& reading : readings)
-    if (reading.state > 0 && (reading.gauge || states[reading.state].step == states[0].step))
+    if (reading.state > 0 && !states[reading.state].step.empty() &&
+        (reading.gauge || states[reading.state].step == states[0].step))
       by_step[states[reading.state].step].push_back(reading);
   Repeatability repeatability;
   double squares = 0, variances = 0;

@@ -272,12 +272,13 @@ Status ReadTables(Session& session) {
   return ReadPipeTable(session, seen);
 }
 
-Result<std::vector<PipeState>> ReadPipeStates(const fs::path& table) {
+Result<PipeTable> ReadPipeTableOf(const Session& session, const fs::path& table) {
   TELESTRAIN_ASSIGN_OR_RETURN(const TableReader reader, OpenPipeTable(table));
+  TELESTRAIN_RETURN_IF_ERROR(CheckGaugeColumns(session, reader));
   Session holder;
   SeenImages seen;
   TELESTRAIN_RETURN_IF_ERROR(FillPipeStates(reader, table.parent_path(), false, seen, holder));
-  return std::move(holder.pipe_states);
+  return PipeTable{std::move(holder.gauge_columns), std::move(holder.pipe_states)};
 }
 
 }  // namespace telestrain

@@ -35,11 +35,26 @@ TEST_F(RunFiles, TheVerdictIsPassAndTheProgramSaysSo) {
 
 TEST_F(RunFiles, EveryFileOfTheResultsTableIsThere) {
   const auto bytes = BytesBelow(Results());
-  for (const char* name :
-       {"inputs.json", "corners.vnl", "corner_covariances.csv", "detection.json",
-        "calibration.json", "residuals.csv", "ruler.csv", "ruler.json", "strain.csv", "strain.json",
-        "strain_states.jsonl", "pipe_000.vtp", "pipe_001.vtp", "pipe_002.vtp", "pictures/array.png",
-        "pictures/targets.png", "pictures/pipe_strain.png", "results.json", "report.pdf"}) {
+  for (const char* name : {"inputs.json",
+                           "corners.vnl",
+                           "corner_covariances.csv",
+                           "detection.json",
+                           "calibration.json",
+                           "residuals.csv",
+                           "ruler.csv",
+                           "ruler.json",
+                           "strain.csv",
+                           "strain.json",
+                           "strain_components.csv",
+                           "strain_states.jsonl",
+                           "pipe_000.vtp",
+                           "pipe_001.vtp",
+                           "pipe_002.vtp",
+                           "pictures/array.png",
+                           "pictures/targets.png",
+                           "pictures/pipe_strain.png",
+                           "results.json",
+                           "report.pdf"}) {
     ASSERT_TRUE(bytes.contains(name)) << name;
     EXPECT_FALSE(bytes.at(name).empty()) << name;
   }
@@ -59,6 +74,10 @@ TEST_F(RunFiles, TablesHaveTheirHeadersAndOneRowPerImage) {
             "image,cycle,step,axial_microstrain,standard_uncertainty_microstrain,"
             "local_a_microstrain,local_b_microstrain,gauge_mean_microstrain");
   EXPECT_TRUE(strain[3].starts_with("pipe/pipe_002.png,1,2,"));
+  const auto components = LinesOf(ReadAll(Results() / "strain_components.csv"));
+  ASSERT_EQ(components.size(), 1u + 3u);
+  EXPECT_TRUE(components[0].starts_with("image,cycle,step,membrane_microstrain,"));
+  EXPECT_TRUE(components[3].starts_with("pipe/pipe_002.png,1,2,"));
   const auto covariances = LinesOf(ReadAll(Results() / "corner_covariances.csv"));
   EXPECT_EQ(covariances[0], "image,view,column,row,cov_uu_px2,cov_uv_px2,cov_vv_px2");
   const auto residuals = LinesOf(ReadAll(Results() / "residuals.csv"));

@@ -97,7 +97,11 @@ TEST_F(PipeMotion, AFarMoveIsFoundAndWhatLeftTheFieldIsNamed) {
     // 2.0 of the 5.7 mm of a view have left it, with a row of subsets that lies over its border.
     const int points = static_cast<int>(sequence.grid().points.size());
     EXPECT_NEAR(Rejected(found, "outside the image"), points * 2.0 / 5.7, 0.1 * points);
-    EXPECT_EQ(found.strain.points_used + Rejected(found, "outside the image"), points);
+    int rejected = 0;
+    for (const auto& [reason, count] : found.strain.points_rejected) rejected += count;
+    EXPECT_EQ(found.strain.points_used + rejected, points);
+    // Besides them the outlier limit may take a point whose subset nearly left.
+    EXPECT_LE(rejected - Rejected(found, "outside the image"), 2);
   }
 }
 

@@ -182,6 +182,23 @@ TEST(SequenceStatistics, WorksWithoutGaugesAndWithoutTimes) {
   EXPECT_FALSE(AnalyseSequence({states[0]}, kOptions).regression);
 }
 
+// Images that are watched as they come have no labels: a loaded state must not count as a zero one.
+TEST(SequenceStatistics, StatesWithoutLabelsAreNoZeroStates) {
+  Random random(6);
+  auto states = MakeSequence(SequenceFaults{}, random);
+  for (auto& state : states) {
+    state.gauge_microstrain.reset();
+    state.gauge_sigma_microstrain.reset();
+    state.step.clear();
+  }
+  const auto statistics = AnalyseSequence(states, kOptions);
+  EXPECT_TRUE(statistics.zero_states.empty());
+  EXPECT_FALSE(statistics.still);
+  EXPECT_FALSE(statistics.moved);
+  EXPECT_FALSE(statistics.repeatability);
+  EXPECT_FALSE(statistics.drift_per_hour);
+}
+
 TEST(SequenceStatistics, ClassesAreThoseOfTheLargestError) {
   // 1 mm of base: a microstrain is a nanometre.
   const auto point = [](double indicated, double reference) {
