@@ -41,12 +41,15 @@ class Measure : public SessionCopy {
  protected:
   void MakeStates(int count) {
     std::ofstream table(session() / "pipe.csv");
-    table << "image,cycle,step,gauge_1_microstrain\n";
+    table << "image,cycle,step";
+    for (int gauge = 1; gauge <= 4; ++gauge) table << ",gauge_" << gauge << "_microstrain";
+    table << '\n';
     for (int i = 0; i < count; ++i) {
       const std::string name = "pipe/state_" + std::to_string(100 + i) + ".png";
       fs::copy_file(session() / ("pipe/pipe_00" + std::to_string(i % 3) + ".png"),
                     session() / name);
-      table << name << ",1," << i << ',' << (i % 3 == 1 ? 745 : 0) << '\n';
+      const std::string reading = i % 3 == 1 ? ",745" : ",0";
+      table << name << ",1," << i << reading << reading << reading << reading << '\n';
     }
   }
   std::vector<std::string> MeasureInto(const fs::path& out) const {
