@@ -76,7 +76,7 @@ Status DrawStrainHysteresis(const ReportContext& context, const PageBox& box) {
   bool unloading = false;
   double before = 0;
   for (const Json& row : ListAt(context.Table("strain-states"), "/rows")) {
-    const auto gauges = NumberAt(row, "/7/value"), error = NumberAt(row, "/8/value");
+    const auto gauges = NumberAt(row, "/9/value"), error = NumberAt(row, "/10/value");
     if (!gauges || !error) continue;
     const std::string of = row.size() > 1 && row[1].is_string() ? row[1].get<std::string>() : "";
     if (of != cycle) unloading = false, peak = 0;
@@ -85,7 +85,7 @@ Status DrawStrainHysteresis(const ReportContext& context, const PageBox& box) {
     // From the first state on that falls back by a tenth of what the cycle reached.
     unloading = unloading || (peak > 0 && std::abs(*gauges) < std::abs(before) - 0.1 * peak);
     before = *gauges;
-    points.push_back({*gauges, *error, NumberAt(row, "/12/value").value_or(0), unloading});
+    points.push_back({*gauges, *error, NumberAt(row, "/8/value").value_or(0), unloading});
   }
   const Look& look = context.flow.look();
   return DrawErrors(context, box, points,

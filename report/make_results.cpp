@@ -160,7 +160,7 @@ Result<Outcome> MakeResults(const std::filesystem::path& results) {
   draft.AddTable(SummaryTable(draft));
   ResultTable decisions = DecisionsTable(draft);
   if (!decisions.empty()) draft.AddTable(std::move(decisions));
-  AddInputs(parts.inputs, draft);
+  AddInputs(parts.inputs, parts.strain, draft);
   TELESTRAIN_ASSIGN_OR_RETURN(ResultTable evidence, EvidenceTable(results));
   draft.AddTable(std::move(evidence));
   const Outcome outcome = OutcomeOf(draft);

@@ -19,8 +19,8 @@ struct Sample {
 // Column numbers of the tables as MakeResults writes them.
 constexpr const char *kRulerError = "/2/value", *kRulerU = "/3/value",
                      *kRulerVerdict = "/4/verdict";
-constexpr const char *kCamera = "/3/value", *kCameraU = "/4/value", *kGauges = "/7/value",
-                     *kAtGauges = "/11/value", *kAtGaugesU = "/12/value";
+constexpr const char *kCamera = "/3/value", *kCameraU = "/4/value", *kGauges = "/9/value",
+                     *kAtGauges = "/7/value", *kAtGaugesU = "/8/value";
 
 std::vector<Sample> RulerErrors(const ReportContext& context) {
   std::vector<Sample> samples;
@@ -108,13 +108,13 @@ Status DrawStrainStates(const ReportContext& context, const PageBox& box) {
   bool has_gauges = false;
   std::vector<double> x, y;
   for (const State& state : states) {
-    low = std::min(
-        {low, state.camera.value - state.camera.expanded_uncertainty, state.gauges.value_or(0)});
-    high = std::max(
-        {high, state.camera.value + state.camera.expanded_uncertainty, state.gauges.value_or(0)});
+    low = std::min({low, state.at_gauges.value - state.at_gauges.expanded_uncertainty,
+                    state.gauges.value_or(0)});
+    high = std::max({high, state.at_gauges.value + state.at_gauges.expanded_uncertainty,
+                     state.gauges.value_or(0)});
     has_gauges = has_gauges || state.gauges.has_value();
     x.push_back(static_cast<double>(x.size()));
-    y.push_back(state.camera.value);
+    y.push_back(state.at_gauges.value);
   }
   const auto translate = [&](const char* text) { return context.layout.Translate(text); };
   Plot plot(context.flow, box,
@@ -124,12 +124,14 @@ Status DrawStrainStates(const ReportContext& context, const PageBox& box) {
   const double size_pt = plot.MarkerSize_pt();
   plot.DrawCurve(x, y, {look.measured, 0.25 + 0.25 * size_pt});
   for (std::size_t i = 0; i < states.size(); ++i) {
-    plot.DrawErrorBar(x[i], y[i], states[i].camera.expanded_uncertainty, look.measured, size_pt);
+    plot.DrawErrorBar(x[i], y[i], states[i].at_gauges.expanded_uncertainty, look.measured, size_pt);
     plot.DrawMarker(x[i], y[i], Marker::kDot, look.measured, size_pt);
     if (states[i].gauges)
       plot.DrawMarker(x[i], *states[i].gauges, Marker::kSquare, look.reference, 1.6 * size_pt);
   }
-  std::vector<Plot::LegendEntry> legend = {{translate("camera ± U"), Marker::kDot, look.measured}};
+  std::vector<Plot::LegendEntry> legend = {
+      {translate(has_gauges ? "camera at the gauges ± U" : "camera ± U"), Marker::kDot,
+       look.measured}};
   if (has_gauges) legend.push_back({translate("gauges, change"), Marker::kSquare, look.reference});
   plot.DrawLegend(legend);
   return {};
@@ -151,7 +153,7 @@ Status DrawStrainGauges(const ReportContext& context, const PageBox& box) {
   const auto translate = [&](const char* text) { return context.layout.Translate(text); };
   Plot plot(context.flow, box,
             {translate("Gauges, change / µε"), low - margin, high + margin, false, false},
-            {translate("Camera / µε"), low - margin, high + margin, false, false});
+            {translate("Camera at the gauges / µε"), low - margin, high + margin, false, false});
   const Look& look = context.flow.look();
   plot.DrawCurve({plot.x_low(), plot.x_high()}, {plot.x_low(), plot.x_high()},
                  {look.reference, 0.9});

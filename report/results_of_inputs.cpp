@@ -1,4 +1,5 @@
 #include <cctype>
+#include <map>
 #include <set>
 
 #include "report/results_parts.h"
@@ -76,22 +77,39 @@ void AddSoftware(const Json& inputs, ResultsDraft& draft) {
   draft.AddTable(std::move(table));
 }
 
-void AddFiles(const Json& inputs, ResultsDraft& draft) {
+// Pipe images that were measured as they arrived may be other files than the session's.
+std::map<std::string, std::string> MeasuredHashes(const Json& strain) {
+  std::map<std::string, std::string> hashes;
+  for (const Json& state : ListAt(strain, "/states"))
+    if (EntryAt(state, "/image_sha256").is_string())
+      hashes[TextAt(state, "/image")] = TextAt(state, "/image_sha256");
+  return hashes;
+}
+
+void AddFiles(const Json& inputs, const Json& strain, ResultsDraft& draft) {
   ResultTable table("input-files", "Input files",
                     {{"File", ""}, {"Size", "bytes"}, {"SHA-256", ""}});
-  for (const Json& file : ListAt(inputs, "/files"))
-    table.AddRow({TextAt(file, "/path", kNoValue), CountCell(NumberAt(file, "/bytes")),
-                  TextAt(file, "/sha256", kNoValue)});
+  auto measured = MeasuredHashes(strain);
+  for (const Json& file : ListAt(inputs, "/files")) {
+    const std::string path = TextAt(file, "/path", kNoValue);
+    const auto found = measured.find(path);
+    const bool other = found != measured.end() && found->second != TextAt(file, "/sha256");
+    if (!other) {
+      table.AddRow({path, CountCell(NumberAt(file, "/bytes")), TextAt(file, "/sha256", kNoValue)});
+      if (found != measured.end()) measured.erase(found);
+    }
+  }
+  for (const auto& [path, sha256] : measured) table.AddRow({path + " (watched)", kNoValue, sha256});
   draft.AddTable(std::move(table));
 }
 
 }  // namespace
 
-void AddInputs(const Json& inputs, ResultsDraft& draft) {
+void AddInputs(const Json& inputs, const Json& strain, ResultsDraft& draft) {
   AddDocument(inputs, draft);
   AddArtefacts(inputs, draft);
   AddSoftware(inputs, draft);
-  AddFiles(inputs, draft);
+  AddFiles(inputs, strain, draft);
 }
 
 Acceptance ReadAcceptance(const Json& inputs) {

@@ -27,16 +27,16 @@ void AddStates(const Json& strain, ResultsDraft& draft) {
                     {{"Image", ""},
                      {"Cycle", ""},
                      {"Step", ""},
-                     {"Camera", "µε"},
+                     {"Long base", "µε"},
                      {"U", "µε"},
                      {"Local A", "µε"},
                      {"Local B", "µε"},
-                     {"Gauges, change", "µε"},
-                     {"Camera - gauges", "µε"},
-                     {"Points", ""},
-                     {"Rejected", ""},
                      {"At gauges", "µε"},
-                     {"U at gauges", "µε"}});
+                     {"U", "µε"},
+                     {"Gauges, change", "µε"},
+                     {"Difference", "µε"},
+                     {"Points", ""},
+                     {"Rejected", ""}});
   for (const Json& state : ListAt(strain, "/states")) {
     const auto axial = NumberAt(state, "/axial_microstrain");
     const auto gauge = NumberAt(state, "/gauge_change_microstrain");
@@ -52,10 +52,10 @@ void AddStates(const Json& strain, ResultsDraft& draft) {
     table.AddRow({TextAt(state, "/image", "?"), TextAt(state, "/cycle", kNoValue),
                   TextAt(state, "/step", kNoValue), camera.value, camera.uncertainty,
                   FixedCell(NumberAt(state, "/local_a_microstrain"), 1),
-                  FixedCell(NumberAt(state, "/local_b_microstrain"), 1), FixedCell(gauge, 1),
+                  FixedCell(NumberAt(state, "/local_b_microstrain"), 1), at_gauges.value,
+                  at_gauges.uncertainty, FixedCell(gauge, 1),
                   FixedCell(Difference(compared, gauge), 1),
-                  CountCell(NumberAt(state, "/points_used")), CountCell(RejectedPoints(state)),
-                  at_gauges.value, at_gauges.uncertainty});
+                  CountCell(NumberAt(state, "/points_used")), CountCell(RejectedPoints(state))});
   }
   draft.AddTable(std::move(table));
 }

@@ -9,7 +9,7 @@ namespace telestrain {
 // does not exist. Pure functions of their arguments.
 
 // Customer lines, counts, software, files of inputs.json.
-void AddInputs(const Json& inputs, ResultsDraft& draft);
+void AddInputs(const Json& inputs, const Json& strain, ResultsDraft& draft);
 // Lens, views, reprojection, poses, boards found and rejected, stage, models, gauge.
 void AddCalibration(const Json& calibration, const Json& detection, ResultsDraft& draft);
 // The first part of it: what the lens and the views are.

@@ -192,12 +192,12 @@ Status WatchedFolder::Keep(const PipeSequence& sequence, const PipeImage& image,
                : std::string("-");
   };
   const double k = session_.acceptance.coverage_factor;
-  console_.Say(TimeOfDay() + "  " + state.table.image + "  axial " +
-               Microstrain(strain.axial_strain, 2) + " +- " +
-               Microstrain(k * strain.standard_uncertainty, 2) + "  local A " + local(0) + " B " +
-               local(1) + " microstrain  " + std::to_string(strain.points_used) + " of " +
-               std::to_string(sequence.grid().points.size()) + " points  " +
-               (image.known ? std::string("known") : FormatFixed(spent_ms, 0) + " ms"));
+  console_.Say(
+      TimeOfDay() + "  " + state.table.image + "  axial " + Microstrain(strain.axial_strain, 2) +
+      " +- " + Microstrain(k * strain.standard_uncertainty, 2) + "  local A " + local(0) + " B " +
+      local(1) + " microstrain (U, k = " + FormatShortest(k) + ")  " +
+      std::to_string(strain.points_used) + " of " + std::to_string(sequence.grid().points.size()) +
+      " points  " + (image.known ? std::string("known") : FormatFixed(spent_ms, 0) + " ms"));
   return {};
 }
 

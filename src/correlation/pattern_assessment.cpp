@@ -75,6 +75,10 @@ Result<PatternAssessment> AssessPattern(const GrayImage& image, const FieldOptio
   const PatternStatistics pattern =
       MeasurePattern(image, region, options.mask ? &*options.mask : nullptr,
                      options.correlation.prefilter_sigma_px);
+  if (!(pattern.contrast_gray > 0) || !(pattern.gradient_gray_per_px > 0))
+    return BadInput(
+        "the region has no pattern (all pixels that count have one grey level); is it the right "
+        "image, and neither black nor saturated?");
   const int order = options.correlation.shape_order;
   PatternAssessment found;
   found.speckle_px = pattern.speckle_px;

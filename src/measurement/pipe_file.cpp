@@ -31,6 +31,7 @@ double LocalMicrostrain(const StateStrain& strain, std::size_t group) {
 Json StateJson(const MeasuredState& state, std::size_t row) {
   const StateStrain& strain = state.strain;
   Json json{{"image", state.table.image},
+            {"image_sha256", state.image_sha256.empty() ? Json(nullptr) : Json(state.image_sha256)},
             {"cycle", state.table.cycle},
             {"step", state.table.step},
             {"axial_microstrain", kMicro * strain.axial_strain},

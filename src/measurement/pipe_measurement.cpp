@@ -132,6 +132,7 @@ class StreamMeasurement {
       TELESTRAIN_CHECK(image.image.has_value(), "an image without pixels cannot be measured");
       TELESTRAIN_ASSIGN_OR_RETURN(state, sequence_->Measure(image.table, *image.image));
     }
+    state.image_sha256 = image.sha256;
     const std::chrono::duration<double, std::milli> spent =
         std::chrono::steady_clock::now() - start;
     TELESTRAIN_RETURN_IF_ERROR(stream_.Keep(*sequence_, image, state, spent.count()));

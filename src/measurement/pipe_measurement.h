@@ -14,7 +14,8 @@ namespace telestrain {
 inline constexpr const char* kStrainSchema = "telestrain.strain/1";
 
 struct MeasuredState {
-  PipeState table;  // the row of pipe.csv
+  PipeState table;           // the row of pipe.csv
+  std::string image_sha256;  // of the file that was measured; empty where that is not recorded
   StateStrain strain;
   std::vector<ViewMotion> from, motions;  // where the views were looked for, and found; per view
   std::optional<double> gauge_mean_microstrain;  // of the gauges that have a value

@@ -193,15 +193,33 @@ TEST(MakeResults, TheGaugesChangeIsComparedNotTheirReading) {
   std::string verdict;
   const Json results = ResultsOf(fixture, verdict);
   const Json& table = TableOf(results, "strain-states");
-  EXPECT_EQ(TextAt(table, "/columns/7/name"), "Gauges, change");
+  EXPECT_EQ(TextAt(table, "/columns/9/name"), "Gauges, change");
   const Json& states = ListAt(fixture.strain, "/states");
   ASSERT_EQ(ListAt(table, "/rows").size(), states.size());
   for (std::size_t i = 0; i < states.size(); ++i) {
     const double change = states[i]["gauge_change_microstrain"];
     const double axial = states[i]["axial_microstrain"];
-    EXPECT_DOUBLE_EQ(*NumberAt(table["rows"][i], "/7/value"), change);
-    EXPECT_DOUBLE_EQ(*NumberAt(table["rows"][i], "/8/value"), axial - change);
+    EXPECT_DOUBLE_EQ(*NumberAt(table["rows"][i], "/9/value"), change);
+    EXPECT_DOUBLE_EQ(*NumberAt(table["rows"][i], "/10/value"), axial - change);
   }
+}
+
+// What was measured while watching a folder is named with its own hash, not the session's.
+TEST(MakeResults, WatchedImagesStandWithTheirOwnHash) {
+  ResultsFixture fixture = WithoutPictures();
+  const std::string image = fixture.strain["states"][1]["image"];
+  fixture.strain["states"][1]["image_sha256"] = std::string(64, 'e');
+  std::string verdict;
+  const Json results = ResultsOf(fixture, verdict);
+  int rows = 0;
+  for (const Json& row : ListAt(TableOf(results, "input-files"), "/rows")) {
+    const std::string name = row[0];
+    if (name.find(image) == std::string::npos) continue;
+    ++rows;
+    EXPECT_EQ(name, image + " (watched)");
+    EXPECT_EQ(row[2], std::string(64, 'e'));
+  }
+  EXPECT_EQ(rows, 1);
 }
 
 TEST(MakeResults, AGaugeWithUnknownChangeIsLeftOut) {
@@ -210,8 +228,8 @@ TEST(MakeResults, AGaugeWithUnknownChangeIsLeftOut) {
   std::string verdict;
   const Json results = ResultsOf(fixture, verdict);
   const Json& row = TableOf(results, "strain-states")["rows"][2];
-  EXPECT_TRUE(EntryAt(row, "/7/value").is_null());
-  EXPECT_TRUE(EntryAt(row, "/8/value").is_null());
+  EXPECT_TRUE(EntryAt(row, "/9/value").is_null());
+  EXPECT_TRUE(EntryAt(row, "/10/value").is_null());
 }
 
 TEST(MakeResults, NothingMeasuredIsNotAccepted) {
