@@ -144,4 +144,16 @@ std::map<std::string, std::string> BytesBelow(const fs::path& folder) {
   return bytes;
 }
 
+std::vector<std::string> DifferingFiles(const fs::path& a, const fs::path& b) {
+  const auto first = BytesBelow(a), second = BytesBelow(b);
+  std::vector<std::string> names;
+  for (const auto& [name, bytes] : first) {
+    const auto other = second.find(name);
+    if (other == second.end() || other->second != bytes) names.push_back(name);
+  }
+  for (const auto& [name, bytes] : second)
+    if (!first.contains(name)) names.push_back(name);
+  return names;
+}
+
 }  // namespace telestrain::testing_support

@@ -56,6 +56,10 @@ std::filesystem::path SmallSession();
 // The bytes of every file below `folder`, by its path inside.
 std::map<std::string, std::string> BytesBelow(const std::filesystem::path& folder);
 
+// Names, not bytes, of the files below one of two folders that the other lacks or has otherwise.
+std::vector<std::string> DifferingFiles(const std::filesystem::path& a,
+                                        const std::filesystem::path& b);
+
 std::string ReadAll(const std::filesystem::path& path);
 
 }  // namespace telestrain::testing_support
