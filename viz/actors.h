@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "viz/canvas.h"
-#include "viz/color_map.h"
-#include "viz/scene.h"
+#include "viz/scene/color_map.h"
+#include "viz/scene/scene.h"
 #include "viz/solids.h"
 
 class vtkRenderer;

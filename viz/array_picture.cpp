@@ -79,9 +79,10 @@ void AddBodies(Canvas* canvas, const Scene& scene, vtkRenderer* renderer) {
   const ColorMap colors = ColorMap::Plasma(scale.low, scale.high);
   for (const Board& board : scene.boards) AddBoard(renderer, board, colors, point_px);
   if (scene.pipe) {
-    const ColorScale strain = StrainScale(scene.pipe->surface);
+    const ColorScale strain = StrainScale(scene.pipe->Largest().surface);
     AddNominalPipe(renderer, *scene.pipe, DrawnSpanOf(*scene.pipe), point_px);
-    AddStrainSurface(renderer, scene.pipe->surface, ColorMap::Viridis(strain.low, strain.high));
+    AddStrainSurface(renderer, scene.pipe->Largest().surface,
+                     ColorMap::Viridis(strain.low, strain.high));
   }
 }
 
@@ -95,7 +96,7 @@ Status AddFooter(Canvas* canvas, const Scene& scene) {
   std::optional<ColorMap> strain_colors;
   std::vector<LegendEntry> entries = LegendOf(scene);
   if (scene.pipe) {
-    const ColorScale scale = StrainScale(scene.pipe->surface);
+    const ColorScale scale = StrainScale(scene.pipe->Largest().surface);
     strain_colors = ColorMap::Viridis(scale.low, scale.high);
     entries.push_back({LegendEntry::Sign::kColors,
                        {},

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "viz/canvas.h"
-#include "viz/color_map.h"
+#include "viz/scene/color_map.h"
 
 namespace telestrain::viz {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "viz/color_map.h"
+#include "viz/scene/color_map.h"
 #include "viz/field_picture.h"
 #include "viz/image_backdrop.h"
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "viz/camera.h"
+#include "viz/scene/camera.h"
 
 namespace telestrain::viz {
 

@@ -5,8 +5,8 @@
 #include <Eigen/Core>
 #include <array>
 
-#include "viz/camera.h"
-#include "viz/color_map.h"
+#include "viz/scene/camera.h"
+#include "viz/scene/color_map.h"
 
 class vtkActor2D;
 class vtkCellArray;

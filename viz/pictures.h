@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "base/result.h"
-#include "viz/camera.h"
-#include "viz/color_map.h"
+#include "viz/scene/camera.h"
+#include "viz/scene/color_map.h"
 #include "viz/render.h"
-#include "viz/scene.h"
+#include "viz/scene/scene.h"
 
 namespace telestrain::viz {
 

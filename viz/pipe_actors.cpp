@@ -26,7 +26,7 @@ vtkSmartPointer<vtkPolyData> SurfaceData(const Surface& surface, int group) {
   strain->SetName("axial_microstrain");
   for (std::size_t i = 0; i < surface.points_in_array_mm.size(); ++i) {
     points->InsertNextPoint(surface.points_in_array_mm[i].data());
-    strain->InsertNextValue(surface.axial_microstrain[i]);
+    strain->InsertNextValue(surface.values.front().values[i]);
   }
   vtkNew<vtkCellArray> quads;
   for (const std::array<int, 4>& quad : surface.quads) {
@@ -81,7 +81,7 @@ void AddStrainSurface(vtkRenderer* renderer, const Surface& surface, const Color
 std::array<double, 2> SpanOf(const Pipe& pipe) {
   std::array<double, 2> span_mm{std::numeric_limits<double>::max(),
                                 std::numeric_limits<double>::lowest()};
-  for (const Eigen::Vector3d& point : pipe.surface.points_in_array_mm) {
+  for (const Eigen::Vector3d& point : pipe.Largest().surface.points_in_array_mm) {
     const double along_mm = (point - pipe.axis_point_in_array_mm).dot(pipe.axis_in_array);
     span_mm = {std::min(span_mm[0], along_mm), std::max(span_mm[1], along_mm)};
   }

@@ -14,13 +14,14 @@ constexpr double kOverview_pt = 142, kMargin_pt = 6;
 const std::string kMicrostrain = "\u00b5\u03b5";
 
 ColorMap StrainColors(const Pipe& pipe) {
-  const ColorScale scale = StrainScale(pipe.surface);
+  const ColorScale scale = StrainScale(pipe.Largest().surface);
   return ColorMap::Viridis(scale.low, scale.high);
 }
 
 std::string WithUncertainty(const Scene& scene) {
-  const double expanded = scene.coverage_factor * scene.pipe->standard_uncertainty_microstrain;
-  return NumberText(scene.pipe->axial_microstrain, 1) + " " + kMicrostrain + " \u00b1 " +
+  const double expanded =
+      scene.coverage_factor * scene.pipe->Largest().standard_uncertainty_microstrain;
+  return NumberText(scene.pipe->Largest().axial_microstrain, 1) + " " + kMicrostrain + " \u00b1 " +
          FormatFixed(expanded, 1) + " " + kMicrostrain +
          " (k = " + FormatShortest(scene.coverage_factor) + ")";
 }
@@ -30,7 +31,7 @@ std::array<Eigen::Vector3d, 2> BaseEnds(const Scene& scene, double above_axis_mm
   const Pipe& pipe = *scene.pipe;
   std::array<Eigen::Vector3d, 2> ends;
   for (int group : {0, 1}) {
-    const auto points = PointsOfGroup(pipe.surface, group);
+    const auto points = PointsOfGroup(pipe.Largest().surface, group);
     double along_mm = 0;
     for (const Eigen::Vector3d& point : points)
       along_mm += (point - pipe.axis_point_in_array_mm).dot(pipe.axis_in_array) /
@@ -70,7 +71,7 @@ void AddOverview(Canvas* canvas, const Scene& scene, const PixelBox& box) {
   vtkRenderer* renderer = canvas->AddPanel(
       "pipe", box, FitCamera(extent, AxesOf(scene), kOverview, box, canvas->Px(5)));
   AddNominalPipe(renderer, pipe, DrawnSpanOf(pipe), canvas->Px(1));
-  AddStrainSurface(renderer, pipe.surface, StrainColors(pipe));
+  AddStrainSurface(renderer, pipe.Largest().surface, StrainColors(pipe));
   AddBaseLine(canvas, scene, renderer);
 }
 
@@ -80,11 +81,11 @@ void AddCloseUp(Canvas* canvas, const Scene& scene, int group, PixelBox box) {
   const auto index = static_cast<std::size_t>(group);
   const std::vector<std::string> groups = scene.Groups();
   const std::string name = index < groups.size() ? groups[index] : std::to_string(group);
-  auto points = PointsOfGroup(pipe.surface, group);
+  auto points = PointsOfGroup(pipe.Largest().surface, group);
   const TextStyle heading{8, true, kInk};
   const std::string text = "group " + Shortened(name) + ": local mean " +
-                           NumberText(pipe.local_microstrain[index], 1) + " " + kMicrostrain +
-                           (points.empty() ? ", no points" : "");
+                           NumberText(pipe.Largest().local_microstrain[index], 1) + " " +
+                           kMicrostrain + (points.empty() ? ", no points" : "");
   const Eigen::Vector2d size = canvas->TextSize(text, heading);
   box.height -= size.y() + canvas->Px(1);
   canvas->AddText(text, {box.left + 0.5 * (box.width - size.x()), box.Top()}, heading);
@@ -100,8 +101,8 @@ void AddCloseUp(Canvas* canvas, const Scene& scene, int group, PixelBox box) {
   const std::string panel = "group " + name;
   vtkRenderer* renderer =
       canvas->AddPanel(panel, box, FitCamera(points, axes, kCloseUp, box, canvas->Px(2)));
-  AddStrainSurface(renderer, pipe.surface, StrainColors(pipe), group);
-  AddPatchEdge(renderer, pipe.surface, group, canvas->Px(1));
+  AddStrainSurface(renderer, pipe.Largest().surface, StrainColors(pipe), group);
+  AddPatchEdge(renderer, pipe.Largest().surface, group, canvas->Px(1));
   AddScaleBar(canvas, panel, renderer, bar);
 }
 
@@ -109,7 +110,7 @@ void AddCloseUp(Canvas* canvas, const Scene& scene, int group, PixelBox box) {
 Status AddKey(Canvas* canvas, const Scene& scene, const PixelBox& box) {
   const Pipe& pipe = *scene.pipe;
   const double bar_height = canvas->Px(36), triad_px = canvas->Px(40);
-  AddColorBar(canvas, StrainColors(pipe), StrainScale(pipe.surface),
+  AddColorBar(canvas, StrainColors(pipe), StrainScale(pipe.Largest().surface),
               "axial strain / " + kMicrostrain,
               {box.left, box.Top() - bar_height, box.width, bar_height});
   using Sign = LegendEntry::Sign;
@@ -120,7 +121,7 @@ Status AddKey(Canvas* canvas, const Scene& scene, const PixelBox& box) {
       {Sign::kNone,
        {},
        1,
-       CountOf(static_cast<int>(pipe.surface.points_in_array_mm.size()), "point")}};
+       CountOf(static_cast<int>(pipe.Largest().surface.points_in_array_mm.size()), "point")}};
   const double bottom_height = box.height - bar_height - canvas->Px(8);
   AddTriad(canvas, AxesOf(scene), kOverview, {box.left, box.bottom, triad_px, bottom_height});
   const double legend_left = box.left + triad_px + canvas->Px(8);
@@ -132,15 +133,17 @@ Status AddKey(Canvas* canvas, const Scene& scene, const PixelBox& box) {
 }  // namespace
 
 // A hundredth of the points at either end may be noise of single subsets.
-ColorScale StrainScale(const Surface& surface) { return ScaleFor(surface.axial_microstrain, 0.01); }
+ColorScale StrainScale(const Surface& surface) {
+  return ScaleFor(surface.values.front().values, 0.01);
+}
 
 Result<Picture> DrawPipeStrain(const Scene& scene, const RenderOptions& options) {
   TELESTRAIN_CHECK(scene.pipe.has_value(), "a strain picture needs a measured pipe");
   TELESTRAIN_ASSIGN_OR_RETURN(const auto canvas, Canvas::Create(options));
   const double top =
       AddTitle(canvas.get(), "Axial strain of the pipe",
-               "state with the largest strain: cycle " + Shortened(scene.pipe->cycle) + ", step " +
-                   Shortened(scene.pipe->step) +
+               "state with the largest strain: cycle " + Shortened(scene.pipe->Largest().cycle) +
+                   ", step " + Shortened(scene.pipe->Largest().step) +
                    "; change against the reference state, positive in tension");
   const double width = canvas->Width(), overview = canvas->Px(kOverview_pt);
   const double margin = canvas->Px(kMargin_pt), lower = top - overview - margin;

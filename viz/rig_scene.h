@@ -1,7 +1,7 @@
 #pragma once
 
 #include "optics/rig_design.h"
-#include "viz/scene.h"
+#include "viz/scene/scene.h"
 #include "viz/solids.h"
 
 class vtkRenderer;

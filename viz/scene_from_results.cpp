@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "base/json_file.h"
-#include "viz/json_node.h"
+#include "viz/scene/json_node.h"
 
 namespace telestrain::viz {
 namespace {
@@ -72,7 +72,7 @@ void ReadViews(const JsonNode& calibration, Scene* scene) {
 // Residuals of the views of one group in one image.
 struct GroupResidual {
   double sum_px2 = 0;
-  int corners = 0, views = 0;
+  int corners = 0;
 };
 
 std::map<std::string, GroupResidual> ReadResiduals(const JsonNode& pose, const Scene& scene) {
@@ -89,7 +89,6 @@ std::map<std::string, GroupResidual> ReadResiduals(const JsonNode& pose, const S
     const int corners = node.At("corners").Count();
     residual.sum_px2 += corners * std::pow(node.At("rms_px").Number(), 2);
     residual.corners += corners;
-    residual.views += 1;
   }
   return residuals;
 }
@@ -105,7 +104,6 @@ void ReadPose(const JsonNode& pose, const std::vector<PrintedBoard>& printed, Sc
     board.image = pose.At("image").Text();
     board.group = print.group;
     board.rms_px = std::sqrt(residual->second.sum_px2 / residual->second.corners);
-    board.views = residual->second.views;
     const Eigen::Vector2d margin_mm = Eigen::Vector2d::Constant(print.square_mm);
     board.outline_in_array_mm = print.Rectangle(print.grid_half_mm + margin_mm);
     board.corner_grid_in_array_mm = print.Rectangle(print.grid_half_mm);
@@ -137,8 +135,10 @@ void ReadRulers(const JsonNode& ruler, Scene* scene) {
       continue;
     }
     const JsonNode ends = node.At("ends_in_array_mm");
-    scene->rulers.push_back(
-        {node.At("image").Text(), {ends.At(0).Vector3(), ends.At(1).Vector3()}});
+    RulerPosition position;
+    position.image = node.At("image").Text();
+    position.ends_in_array_mm = {ends.At(0).Vector3(), ends.At(1).Vector3()};
+    scene->rulers.push_back(position);
   }
 }
 

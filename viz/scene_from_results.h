@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "base/result.h"
-#include "viz/scene.h"
+#include "viz/scene/scene.h"
 
 namespace telestrain::viz {
 

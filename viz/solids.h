@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "viz/color_map.h"
+#include "viz/scene/color_map.h"
 
 class vtkActor;
 class vtkPolyData;

@@ -2,7 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/json_file.h"
-#include "viz/json_node.h"
+#include "viz/scene/json_node.h"
 #include "viz/scene_from_results.h"
 #include "viz/surface_file.h"
 
@@ -36,12 +36,15 @@ Pipe ReadPipe(const JsonNode& strain, std::string* surface_file) {
   pipe.base_length_mm = strain.At("base_length_mm").Positive();
   const JsonNode states = strain.At("states");
   const JsonNode state = states.At(LargestState(states));
-  pipe.cycle = state.At("cycle").Text();
-  pipe.step = state.At("step").Text();
-  pipe.axial_microstrain = state.At("axial_microstrain").Number();
-  pipe.standard_uncertainty_microstrain = NumberOrZero(state, "standard_uncertainty_microstrain");
-  pipe.local_microstrain = {NumberOrZero(state, "local_a_microstrain"),
-                            NumberOrZero(state, "local_b_microstrain")};
+  PipeState largest;
+  largest.cycle = state.At("cycle").Text();
+  largest.step = state.At("step").Text();
+  largest.axial_microstrain = state.At("axial_microstrain").Number();
+  largest.standard_uncertainty_microstrain =
+      NumberOrZero(state, "standard_uncertainty_microstrain");
+  largest.local_microstrain = {NumberOrZero(state, "local_a_microstrain"),
+                               NumberOrZero(state, "local_b_microstrain")};
+  pipe.states.push_back(largest);
   *surface_file = state.At("file").Text();
   return pipe;
 }
@@ -62,7 +65,8 @@ Result<std::optional<Pipe>> PipeFromResults(const std::filesystem::path& results
                     "; make the file again with 'telestrain measure'");
   }
   TELESTRAIN_ASSIGN_OR_RETURN(
-      pipe.surface, ReadSurface(results / std::filesystem::path(surface_file).filename()));
+      pipe.states.front().surface,
+      ReadSurface(results / std::filesystem::path(surface_file).filename()));
   return std::optional<Pipe>(std::move(pipe));
 }
 

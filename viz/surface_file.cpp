@@ -77,9 +77,11 @@ Result<Surface> ReadSurface(const std::filesystem::path& path) {
   Surface surface;
   if (!ReadPoints(data, &surface)) return Malformed(path, "a point is not finite");
   if (!ReadQuads(data, &surface)) return Malformed(path, "valid quads are wanted as polygons");
-  surface.axial_microstrain = PointNumbers(data, "axial_microstrain");
-  if (surface.axial_microstrain.empty())
+  PointValues axial{{"axial_microstrain", "axial strain", "\u00b5\u03b5"},
+                    PointNumbers(data, "axial_microstrain")};
+  if (axial.values.empty())
     return Malformed(path, "point data 'axial_microstrain' with a finite number per point missing");
+  surface.values.push_back(std::move(axial));
   const std::vector<double> groups = PointNumbers(data, "group");
   if (groups.empty()) return Malformed(path, "point data 'group' is missing");
   for (const double group : groups) surface.group.push_back(group < 0.5 ? 0 : 1);

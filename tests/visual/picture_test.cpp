@@ -68,7 +68,7 @@ TEST(DrawPipeStrain, ColourAtAPointIsTheColourOfItsStrain) {
   const Scene scene = FixtureScene("StrainColour");
   const auto picture = DrawPipeStrain(scene, {});
   ASSERT_TRUE(picture.ok()) << picture.error().message;
-  const ColorScale scale = StrainScale(scene.pipe->surface);
+  const ColorScale scale = StrainScale(scene.pipe->Largest().surface);
   const ColorMap colors = ColorMap::Viridis(scale.low, scale.high);
   // A step of the table changes a channel by 3 at most, and half a pixel off changes the strain by
   // less than a step.

@@ -1,4 +1,4 @@
-#include "viz/scene.h"
+#include "viz/scene/scene.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "base/files.h"
 #include "visual/results_fixture.h"
-#include "viz/color_map.h"
+#include "viz/scene/color_map.h"
 #include "viz/label_layout.h"
 #include "viz/scene_from_results.h"
 
@@ -70,8 +70,8 @@ TEST(Scene, ShowsTheStateWithTheLargestStrain) {
   WriteResults(folder);
   const auto scene = SceneFromResults(folder);
   ASSERT_TRUE(scene.ok()) << scene.error().message;
-  EXPECT_EQ(scene->pipe->step, "1");
-  EXPECT_EQ(scene->pipe->axial_microstrain, 812.4);
+  EXPECT_EQ(scene->pipe->Largest().step, "1");
+  EXPECT_EQ(scene->pipe->Largest().axial_microstrain, 812.4);
   EXPECT_EQ(scene->rulers.size(), 17U);
   EXPECT_EQ(scene->rejected_rulers, 1);
 }

@@ -1,4 +1,4 @@
-#include "viz/camera.h"
+#include "viz/scene/camera.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

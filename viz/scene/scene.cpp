@@ -1,4 +1,4 @@
-#include "viz/scene.h"
+#include "viz/scene/scene.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -26,6 +26,12 @@ std::vector<std::string> Scene::Groups() const {
     if (std::find(groups.begin(), groups.end(), view.group) == groups.end())
       groups.push_back(view.group);
   return groups;
+}
+
+const PointValues* Surface::Find(const std::string& key) const {
+  const auto found = std::find_if(values.begin(), values.end(),
+                                  [&](const PointValues& v) { return v.quantity.key == key; });
+  return found == values.end() ? nullptr : &*found;
 }
 
 SceneAxes AxesOf(const Scene& scene) {

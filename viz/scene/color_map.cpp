@@ -1,4 +1,4 @@
-#include "viz/color_map.h"
+#include "viz/scene/color_map.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "viz/json_node.h"
+#include "viz/scene/json_node.h"
 
 #include <cmath>
 #include <nlohmann/json.hpp>

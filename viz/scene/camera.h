@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "viz/scene.h"
+#include "viz/scene/scene.h"
 
 namespace telestrain::viz {
 
