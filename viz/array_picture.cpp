@@ -1,10 +1,10 @@
-#include <Eigen/Geometry>
-#include <algorithm>
-
 #include "base/numbers.h"
-#include "viz/actors.h"
 #include "viz/color_bar.h"
 #include "viz/legend.h"
+#include "viz/part_actors.h"
+#include "viz/pictures.h"
+#include "viz/scene/scene_colors.h"
+#include "viz/scene_marks.h"
 
 namespace telestrain::viz {
 namespace {
@@ -24,16 +24,6 @@ std::vector<Eigen::Vector3d> ExtentOf(const Scene& scene) {
   const auto outline = OutlineOfPipe(*scene.pipe, DrawnSpanOf(*scene.pipe));
   points.insert(points.end(), outline.begin(), outline.end());
   return points;
-}
-
-// In front of everything and below it, where nothing hides it.
-ScaleBar ScaleBarFor(const std::vector<Eigen::Vector3d>& extent, const SceneAxes& axes) {
-  Eigen::Matrix3d from_array;
-  from_array << axes.along.transpose(), axes.across.transpose(), axes.up.transpose();
-  Eigen::AlignedBox3d bounds;
-  for (const Eigen::Vector3d& point : extent) bounds.extend(Eigen::Vector3d(from_array * point));
-  const Eigen::Vector3d start(bounds.min().x(), 0.6 * bounds.min().y(), bounds.min().z());
-  return {from_array.transpose() * start, axes.along, RoundLength(0.3 * bounds.sizes().x())};
 }
 
 std::vector<LegendEntry> LegendOf(const Scene& scene) {
@@ -67,23 +57,14 @@ std::vector<LegendEntry> LegendOf(const Scene& scene) {
 
 void AddBodies(Canvas* canvas, const Scene& scene, vtkRenderer* renderer) {
   const double point_px = canvas->Px(1);
-  for (std::size_t i = 0; i < scene.views.size(); ++i) {
-    AddViewVolume(renderer, scene, i, point_px);
-    Label name;
-    name.text = Shortened(scene.views[i].name);
-    name.anchor_in_array_mm = TopOf(scene, scene.views[i]);
-    name.style = {9, true, ColorOfGroup(scene, scene.views[i].group)};
-    canvas->AddLabel("array", name);
-  }
-  const ColorScale scale = ResidualScale(scene.boards);
-  const ColorMap colors = ColorMap::Plasma(scale.low, scale.high);
-  for (const Board& board : scene.boards) AddBoard(renderer, board, colors, point_px);
-  if (scene.pipe) {
-    const ColorScale strain = StrainScale(scene.pipe->Largest().surface);
-    AddNominalPipe(renderer, *scene.pipe, DrawnSpanOf(*scene.pipe), point_px);
-    AddStrainSurface(renderer, scene.pipe->Largest().surface,
-                     ColorMap::Viridis(strain.low, strain.high));
-  }
+  AddParts(renderer, ViewParts(scene), nullptr, point_px);
+  NameViews(canvas, "array", scene);
+  AddParts(renderer, BoardParts(scene), nullptr, point_px);
+  if (!scene.pipe) return;
+  const ValueColors colors{kAxialStrain, ValueColorMap(StrainScale(scene.pipe->Largest().surface))};
+  AddParts(renderer, {PipePart(*scene.pipe, DrawnSpanOf(*scene.pipe))}, nullptr, point_px);
+  AddParts(renderer, SurfaceParts(scene, scene.pipe->largest_state), &colors, point_px);
+  AddParts(renderer, GaugeParts(scene), nullptr, point_px);
 }
 
 Status AddFooter(Canvas* canvas, const Scene& scene) {
@@ -97,7 +78,7 @@ Status AddFooter(Canvas* canvas, const Scene& scene) {
   std::vector<LegendEntry> entries = LegendOf(scene);
   if (scene.pipe) {
     const ColorScale scale = StrainScale(scene.pipe->Largest().surface);
-    strain_colors = ColorMap::Viridis(scale.low, scale.high);
+    strain_colors = ValueColorMap(scale);
     entries.push_back({LegendEntry::Sign::kColors,
                        {},
                        1,
@@ -107,8 +88,7 @@ Status AddFooter(Canvas* canvas, const Scene& scene) {
   }
   TELESTRAIN_RETURN_IF_ERROR(
       AddLegend(canvas, entries, {legend_left, margin, legend_px, height - margin}));
-  const ColorScale residual = ResidualScale(scene.boards);
-  AddColorBar(canvas, ColorMap::Plasma(residual.low, residual.high), residual,
+  AddColorBar(canvas, ResidualColors(scene.boards), ResidualScale(scene.boards),
               "board residual RMS / px", {bar_left, 0, bar_px, height});
   return {};
 }
@@ -126,7 +106,7 @@ Result<Picture> DrawArray(const Scene& scene, const RenderOptions& options) {
   const PixelBox box{0, footer, canvas->Width(), top - footer};
   const SceneAxes axes = AxesOf(scene);
   std::vector<Eigen::Vector3d> extent = ExtentOf(scene);
-  const ScaleBar bar = ScaleBarFor(extent, axes);
+  const ScaleBar bar = ScaleBarBelow(extent, axes, 0.3);
   extent.push_back(bar.start_in_array_mm);
   vtkRenderer* renderer =
       canvas->AddPanel("array", box, FitCamera(extent, axes, kDirection, box, canvas->Px(13)));

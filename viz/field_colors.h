@@ -1,8 +1,8 @@
 #pragma once
 
-#include "viz/scene/color_map.h"
 #include "viz/field_picture.h"
 #include "viz/image_backdrop.h"
+#include "viz/scene/color_map.h"
 
 namespace telestrain::viz {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <set>
 
-#include "viz/actors.h"
+#include "viz/scene/scene_colors.h"
 
 namespace telestrain::viz {
 namespace {
@@ -16,13 +16,6 @@ constexpr double kArrowSpacing_pt = 19, kArrow_pt = 0.9, kHalo_pt = 0.8, kHead_p
 constexpr double kCross_pt = 1.7, kDot_pt = 1.1, kLeastDotSpacing_pt = 3.2;
 
 }  // namespace
-
-double RoundDown(double value) {
-  const double power = std::pow(10.0, std::floor(std::log10(value)));
-  for (const double factor : {10.0, 5.0, 2.0})
-    if (factor * power <= value * (1 + 1e-9)) return factor * power;
-  return power;
-}
 
 FieldMarks::FieldMarks(Canvas* canvas, const ImageBackdrop& backdrop, const FieldScene& scene,
                        const Eigen::Vector2d& upper_left)

@@ -42,7 +42,4 @@ class FieldMarks {
   Eigen::Vector2d upper_left_;
 };
 
-// 1, 2 or 5 times a power of ten, the largest not above `value` (> 0).
-double RoundDown(double value);
-
 }  // namespace telestrain::viz

@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include "base/numbers.h"
-#include "viz/actors.h"
 #include "viz/color_bar.h"
 #include "viz/field_colors.h"
 #include "viz/field_marks.h"
 #include "viz/legend.h"
+#include "viz/scene/scene_colors.h"
 
 namespace telestrain::viz {
 namespace {

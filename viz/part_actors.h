@@ -21,12 +21,17 @@ struct ValueColors {
   ColorMap colors;
 };
 
+// Where a point has no value of the quantity.
+inline constexpr Rgb kNoValueColor{0.80, 0.80, 0.80};
+
 // Points, polygons and lines; every quantity as point data with its key as name.
 vtkSmartPointer<vtkPolyData> DataOf(const Part& part);
 vtkSmartPointer<vtkLookupTable> TableOf(const ColorMap& colors);
 
-// One actor, ready to be added. `point_px` is the size of 1/72 inch in px, for line widths.
-vtkSmartPointer<vtkActor> ActorOf(const Part& part, const ValueColors* colors, double point_px);
+// Ready to be added: one for the faces, one for the lines, where the part has them. `colors` may be
+// null; `point_px` is the size of 1/72 inch in px, for line widths.
+std::vector<vtkSmartPointer<vtkActor>> ActorsOf(const Part& part, const ValueColors* colors,
+                                                double point_px);
 
 void AddParts(vtkRenderer* renderer, const std::vector<Part>& parts, const ValueColors* colors,
               double point_px);

@@ -1,14 +1,16 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/result.h"
+#include "viz/render.h"
 #include "viz/scene/camera.h"
 #include "viz/scene/color_map.h"
-#include "viz/render.h"
 #include "viz/scene/scene.h"
 
 namespace telestrain::viz {
@@ -43,15 +45,24 @@ struct Picture {
   std::vector<PlacedText> texts;
 };
 
+inline const std::string kAxialStrain = "axial_microstrain";
+
+// What of a pipe's states a picture shows.
+struct PictureChoices {
+  std::optional<std::size_t> state;  // index; none: the one with the largest strain
+  std::string quantity = kAxialStrain;
+  std::optional<std::array<double, 2>> range;  // of the colours; none: that of the values
+};
+
 // The standard pictures. Fail (kOutputFailed) when rendering does. The same scene gives the same
 // pixels on one kind of CPU. One to two seconds of computing each at 300 dpi.
 Result<Picture> DrawArray(const Scene& scene, const RenderOptions& options);
 Result<Picture> DrawTargets(const Scene& scene, const RenderOptions& options);
-// Needs scene.pipe.
-Result<Picture> DrawPipeStrain(const Scene& scene, const RenderOptions& options);
+// Needs scene.pipe with states.
+Result<Picture> DrawPipeStrain(const Scene& scene, const RenderOptions& options,
+                               const PictureChoices& choices = {});
 
-// The colours that the pictures use, for whoever compares.
+// The colours of the strain pictures, for whoever compares.
 ColorScale StrainScale(const Surface& surface);
-ColorScale ResidualScale(const std::vector<Board>& boards);
 
 }  // namespace telestrain::viz

@@ -8,10 +8,12 @@
 
 #include "base/files.h"
 #include "base/numbers.h"
-#include "viz/actors.h"
 #include "viz/legend.h"
+#include "viz/part_actors.h"
 #include "viz/png_bytes.h"
 #include "viz/rig_labels.h"
+#include "viz/scene/scene_colors.h"
+#include "viz/scene_marks.h"
 
 namespace telestrain::viz {
 namespace {
@@ -21,7 +23,6 @@ constexpr ViewDirection kAlongPipe{90, 0};
 constexpr int kWidth_px = 2008, kHeight_px = 1480;
 constexpr double kFooter_pt = 48, kMargin_pt = 6, kHeading_pt = 12;
 constexpr double kObliqueShare = 0.60;  // of the picture's width
-constexpr double kSensorFields = 1.8;   // from the first mirror to the sensor, in sensor widths
 
 // Along the pipe's axis: the fields and a little more.
 std::array<double, 2> PipeSpan(const Scene& scene) {
@@ -52,12 +53,14 @@ std::vector<Eigen::Vector3d> ExtentOf(const RigDrawing& drawing) {
 }
 
 void AddBodies(vtkRenderer* renderer, const RigDrawing& drawing, double point_px) {
-  if (drawing.scene.pipe)
-    AddNominalPipe(renderer, *drawing.scene.pipe, drawing.pipe_span_mm, point_px);
-  AddFocusBoxes(renderer, drawing.scene, point_px);
-  AddMirrors(renderer, drawing.design, drawing.scene, point_px);
-  AddSensor(renderer, drawing.rig, drawing.scene, drawing.sensor_mm, point_px);
-  AddRays(renderer, drawing.rig, drawing.design, drawing.scene, drawing.sensor_mm, point_px);
+  const auto add = [&](const std::vector<Part>& parts) {
+    AddParts(renderer, parts, nullptr, point_px);
+  };
+  if (drawing.scene.pipe) add({PipePart(*drawing.scene.pipe, drawing.pipe_span_mm)});
+  add(FocusParts(drawing.scene));
+  add(MirrorParts(drawing.design, drawing.scene));
+  add(SensorParts(drawing.rig, drawing.scene, drawing.sensor_mm));
+  add(RayParts(drawing.rig, drawing.design, drawing.scene, drawing.sensor_mm));
 }
 
 // An arc between the middle rays of the first pair, with the angle.
@@ -79,7 +82,11 @@ void AddStereoAngle(Canvas* canvas, const std::string& panel, vtkRenderer* rende
     return pair.center_in_array_mm + radius_mm * (turn * start);
   };
   for (int i = 0; i < kParts; ++i) arc.emplace_back(at(i), at(i + 1));
-  AddLines(renderer, arc, kInk, canvas->Px(0.7));
+  Part part;
+  part.mesh = Lines(arc);
+  part.color = kInk;
+  part.line_width_pt = 0.7;
+  AddParts(renderer, {part}, nullptr, canvas->Px(1));
   Label label;
   label.text = FormatFixed(pair.stereo_angle_rad * 180 / std::numbers::pi, 1) + "\u00b0";
   label.anchor_in_array_mm = at(kParts / 2);
@@ -95,7 +102,7 @@ ScaleBar BarBelow(const std::vector<Eigen::Vector3d>& extent, const SceneAxes& a
   Eigen::AlignedBox3d bounds;
   for (const Eigen::Vector3d& point : extent) bounds.extend(Eigen::Vector3d(from_array * point));
   const Eigen::Vector3d start(bounds.min().x(), 0.5 * bounds.min().y(), bounds.min().z());
-  return {from_array.transpose() * start, along, RoundLength(0.4 * bounds.sizes().x())};
+  return {from_array.transpose() * start, along, RoundDown(0.4 * bounds.sizes().x())};
 }
 
 struct PanelPlan {
@@ -160,18 +167,6 @@ std::string FactsOf(const RigDrawing& drawing) {
 }
 
 }  // namespace
-
-double SensorPlane_mm(const OpticalRig& rig, const RigDesign& design) {
-  const double away_mm = kSensorFields * WholeField(rig).sizes().maxCoeff();
-  double first_mm = std::numeric_limits<double>::max();
-  for (const ViewDesign& view : design.views) {
-    first_mm = std::min(first_mm, view.focus_path_mm);
-    for (const MirrorDesign& mirror : view.plates)
-      for (const Eigen::Vector3d& corner : mirror.plate.Corners())
-        first_mm = std::min(first_mm, rig.camera.axis.dot(corner - rig.camera.position_mm));
-  }
-  return first_mm - away_mm;
-}
 
 Result<Picture> DrawRays(const OpticalRig& rig, const RigDesign& design,
                          const RenderOptions& options) {

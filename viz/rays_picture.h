@@ -19,7 +19,4 @@ Result<Picture> DrawRays(const OpticalRig& rig, const RigDesign& design,
 Status RenderRays(const OpticalRig& rig, const RigDesign& design,
                   const std::filesystem::path& path);
 
-// Where the picture draws the sensor's plane: the axis coordinate from camera.position_mm.
-double SensorPlane_mm(const OpticalRig& rig, const RigDesign& design);
-
 }  // namespace telestrain::viz

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "viz/actors.h"
 #include "viz/legend.h"
+#include "viz/scene/scene_colors.h"
 
 namespace telestrain::viz {
 namespace {

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "viz/canvas.h"
-#include "viz/rig_scene.h"
+#include "viz/scene/rig_scene.h"
 
 namespace telestrain::viz {
 

@@ -2,9 +2,12 @@
 #include <algorithm>
 
 #include "base/numbers.h"
-#include "viz/actors.h"
 #include "viz/color_bar.h"
 #include "viz/legend.h"
+#include "viz/part_actors.h"
+#include "viz/pictures.h"
+#include "viz/scene/scene_colors.h"
+#include "viz/scene_marks.h"
 
 namespace telestrain::viz {
 namespace {
@@ -33,11 +36,6 @@ std::vector<Eigen::Vector3d> ExtentOf(const Scene& scene, const std::string& gro
   return points;
 }
 
-ColorMap ResidualColors(const Scene& scene) {
-  const ColorScale scale = ResidualScale(scene.boards);
-  return ColorMap::Plasma(scale.low, scale.high);
-}
-
 // A bar below the front edge of what the panel shows.
 ScaleBar BarBelow(const std::vector<Eigen::Vector3d>& extent, const SceneAxes& axes) {
   Eigen::Matrix3d from_array;
@@ -46,16 +44,15 @@ ScaleBar BarBelow(const std::vector<Eigen::Vector3d>& extent, const SceneAxes& a
   for (const Eigen::Vector3d& point : extent) bounds.extend(Eigen::Vector3d(from_array * point));
   const double drop_mm = 0.15 * bounds.sizes().y();
   const Eigen::Vector3d start(bounds.min().x(), bounds.min().y(), bounds.min().z() - drop_mm);
-  return {from_array.transpose() * start, axes.along, RoundLength(0.3 * bounds.sizes().x())};
+  return {from_array.transpose() * start, axes.along, RoundDown(0.3 * bounds.sizes().x())};
 }
 
 void AddOverview(Canvas* canvas, const Scene& scene, const PixelBox& box) {
   const auto extent = ExtentOf(scene, "");
   vtkRenderer* renderer = canvas->AddPanel(
       "overview", box, FitCamera(extent, AxesOf(scene), kOverview, box, canvas->Px(9)));
-  const ColorMap colors = ResidualColors(scene);
-  for (const Board& board : scene.boards) AddBoard(renderer, board, colors, canvas->Px(0.7));
-  AddRulers(renderer, scene.rulers, canvas->Px(1));
+  AddParts(renderer, BoardParts(scene), nullptr, canvas->Px(0.8));
+  AddParts(renderer, RulerParts(scene), nullptr, canvas->Px(1));
 }
 
 // One group's boards, with a heading above.
@@ -81,9 +78,8 @@ void AddCloseUp(Canvas* canvas, const Scene& scene, const std::string& group, Pi
   extent.push_back(bar.start_in_array_mm);
   vtkRenderer* renderer =
       canvas->AddPanel(panel, box, FitCamera(extent, axes, kCloseUp, box, canvas->Px(9)));
-  const ColorMap colors = ResidualColors(scene);
-  for (const Board& board : boards) AddBoard(renderer, board, colors, canvas->Px(1.2));
-  AddRulerEnds(renderer, scene.rulers, kRulerStub_mm, canvas->Px(1));
+  AddParts(renderer, BoardParts(scene, group), nullptr, canvas->Px(1.2));
+  AddParts(renderer, RulerParts(scene, kRulerStub_mm), nullptr, canvas->Px(1));
   AddScaleBar(canvas, panel, renderer, bar);
 }
 
@@ -100,7 +96,7 @@ std::vector<LegendEntry> LegendOf(const Scene& scene) {
     entries.push_back({Sign::kNone, {}, 1, "no ruler measured"});
     return entries;
   }
-  entries.push_back({Sign::kLine, kRulerColor, 1,
+  entries.push_back({Sign::kLine, RulerColors(scene.rulers).At(0), 1,
                      CountOf(static_cast<int>(scene.rulers.size()), "ruler position")});
   if (scene.rejected_rulers > 0)
     entries.push_back({Sign::kBox,
@@ -119,18 +115,12 @@ Status AddFooter(Canvas* canvas, const Scene& scene) {
   TELESTRAIN_RETURN_IF_ERROR(
       AddLegend(canvas, LegendOf(scene),
                 {legend_left, margin, bar_left - legend_left - canvas->Px(8), height - margin}));
-  AddColorBar(canvas, ResidualColors(scene), ResidualScale(scene.boards), "board residual RMS / px",
-              {bar_left, 0, bar_px, height});
+  AddColorBar(canvas, ResidualColors(scene.boards), ResidualScale(scene.boards),
+              "board residual RMS / px", {bar_left, 0, bar_px, height});
   return {};
 }
 
 }  // namespace
-
-ColorScale ResidualScale(const std::vector<Board>& boards) {
-  std::vector<double> values_px{0};
-  for (const Board& board : boards) values_px.push_back(board.rms_px);
-  return ScaleFor(values_px, 0);
-}
 
 Result<Picture> DrawTargets(const Scene& scene, const RenderOptions& options) {
   TELESTRAIN_ASSIGN_OR_RETURN(const auto canvas, Canvas::Create(options));

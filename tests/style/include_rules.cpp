@@ -54,7 +54,7 @@ constexpr std::array<std::string_view, 12> kPrivateHeaders = {"calibration/board
                                                               "viz/canvas.h",
                                                               "viz/offscreen_window.h",
                                                               "viz/overlay.h",
-                                                              "viz/solids.h"};
+                                                              "viz/part_actors.h"};
 
 int Rank(std::string_view module) {
   const auto found = std::find(kModules.begin(), kModules.end(), module);

@@ -7,6 +7,7 @@
 #include "visual/results_fixture.h"
 #include "viz/label_layout.h"
 #include "viz/pictures.h"
+#include "viz/scene/scene_colors.h"
 #include "viz/scene_from_results.h"
 
 namespace telestrain::viz {

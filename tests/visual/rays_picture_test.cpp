@@ -8,6 +8,7 @@
 
 #include "unit/optics/paper_rig.h"
 #include "viz/label_layout.h"
+#include "viz/scene/rig_scene.h"
 
 namespace telestrain::viz {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "base/files.h"
 #include "visual/results_fixture.h"
-#include "viz/scene/color_map.h"
 #include "viz/label_layout.h"
+#include "viz/scene/color_map.h"
 #include "viz/scene_from_results.h"
 
 namespace telestrain::viz {

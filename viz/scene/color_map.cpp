@@ -52,6 +52,12 @@ ColorMap ColorMap::Viridis(double low, double high) {
                   low, high);
 }
 
+ColorMap ColorMap::DarkViridis(double low, double high) {
+  return ColorMap({FromHex(0x440154), FromHex(0x482878), FromHex(0x3e4989), FromHex(0x31688e),
+                   FromHex(0x26828e), FromHex(0x1f9e89), FromHex(0x35b779), FromHex(0x6ece58)},
+                  low, high);
+}
+
 ColorMap ColorMap::Plasma(double low, double high) {
   return ColorMap({FromHex(0x0d0887), FromHex(0x46039f), FromHex(0x7201a8), FromHex(0x9c179e),
                    FromHex(0xbd3786), FromHex(0xd8576b), FromHex(0xed7953), FromHex(0xfb9f3a)},
@@ -87,6 +93,13 @@ ColorScale ScaleFor(std::vector<double> values, double tail) {
   scale.decimals = std::max(0, static_cast<int>(-std::floor(std::log10(step) + 1e-9)));
   scale.clipped = values.front() < scale.low || values.back() > scale.high;
   return scale;
+}
+
+double RoundDown(double value) {
+  const double power = std::pow(10.0, std::floor(std::log10(value)));
+  for (const double factor : {10.0, 5.0, 2.0})
+    if (factor * power <= value * (1 + 1e-9)) return factor * power;
+  return power;
 }
 
 std::string NumberText(double value, int decimals) {

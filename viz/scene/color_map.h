@@ -20,6 +20,8 @@ class ColorMap {
 
   // For strain: dark blue - green - yellow.
   static ColorMap Viridis(double low, double high);
+  // Its darker four fifths, for lines on white paper.
+  static ColorMap DarkViridis(double low, double high);
   // For residuals: dark blue - magenta - orange, without plasma's yellow, which white paper hides.
   static ColorMap Plasma(double low, double high);
 
@@ -45,6 +47,9 @@ struct ColorScale {
 // Covers the values but for a share `tail` at either end, so that a single outlier does not take
 // the contrast from all others. A constant field gets a range of its own around the value.
 ColorScale ScaleFor(std::vector<double> values, double tail);
+
+// 1, 2 or 5 times a power of ten, the largest not above `value` (> 0).
+double RoundDown(double value);
 
 // "−12.5": fixed notation with a typographic minus sign.
 std::string NumberText(double value, int decimals);

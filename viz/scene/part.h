@@ -12,7 +12,6 @@ namespace telestrain::viz {
 // What can be shown and hidden together.
 enum class Layer {
   kViews,
-  kOptics,
   kBoards,
   kRulers,
   kPipe,
@@ -20,11 +19,12 @@ enum class Layer {
   kDisplacements,
   kGauges,
   kUncertainty,
-  kFrame
+  kFrame,
+  kOptics
 };
 inline constexpr Layer kAllLayers[] = {
-    Layer::kViews,   Layer::kOptics,        Layer::kBoards, Layer::kRulers,      Layer::kPipe,
-    Layer::kSurface, Layer::kDisplacements, Layer::kGauges, Layer::kUncertainty, Layer::kFrame};
+    Layer::kViews,         Layer::kBoards, Layer::kRulers,      Layer::kPipe,  Layer::kSurface,
+    Layer::kDisplacements, Layer::kGauges, Layer::kUncertainty, Layer::kFrame, Layer::kOptics};
 // "views", "optics", …: the word in flags, pages and files.
 std::string NameOf(Layer layer);
 
@@ -69,7 +69,7 @@ struct PartList {
 // All parts of a scene, in the order of kAllLayers; the same scene gives the same parts.
 PartList PartsOf(const Scene& scene, const PartChoices& choices = {});
 
-// The points of all parts of these layers, for cameras.
+// The points of all parts, for cameras.
 std::vector<Eigen::Vector3d> PointsOf(const std::vector<Part>& parts);
 
 }  // namespace telestrain::viz

@@ -72,7 +72,7 @@ struct Quantity {
 };
 struct PointValues {
   Quantity quantity;
-  std::vector<double> values;  // finite
+  std::vector<double> values;  // NaN where a point has none
 };
 
 // The measured surface of the pipe in one state; quads index the points.

@@ -1,10 +1,7 @@
 #pragma once
 
 #include "optics/rig_design.h"
-#include "viz/scene/scene.h"
-#include "viz/solids.h"
-
-class vtkRenderer;
+#include "viz/scene/part.h"
 
 namespace telestrain::viz {
 
@@ -21,18 +18,16 @@ Eigen::AlignedBox2d WholeField(const OpticalRig& rig);
 std::vector<Eigen::Vector3d> DrawnRay(const TracedRay& ray, const OpticalRig& rig,
                                       double sensor_mm);
 
-void AddSensor(vtkRenderer* renderer, const OpticalRig& rig, const Scene& scene, double sensor_mm,
-               double point_px);
-// Mirrors with a rim in the colour of their view.
-void AddMirrors(vtkRenderer* renderer, const RigDesign& design, const Scene& scene,
-                double point_px);
-// The middle ray thick, the corner rays thin.
-void AddRays(vtkRenderer* renderer, const OpticalRig& rig, const RigDesign& design,
-             const Scene& scene, double sensor_mm, double point_px);
-// The space that is in focus, per view.
-void AddFocusBoxes(vtkRenderer* renderer, const Scene& scene, double point_px);
+// Where a rig's sensor is drawn: the axis coordinate from camera.position_mm. It stands in front of
+// the first mirrors at object scale, wherever the camera's reference point is: a telecentric path
+// has no length before the mirrors.
+double SensorPlane_mm(const OpticalRig& rig, const RigDesign& design);
 
-inline constexpr Rgb kMirrorColor{0.62, 0.68, 0.74};
-inline constexpr Rgb kSensorColor{0.30, 0.33, 0.37};
+// The sensor's parts and its frame; mirrors with a rim in the colour of their view; of every view
+// the middle ray thick and the corner rays thin.
+std::vector<Part> SensorParts(const OpticalRig& rig, const Scene& scene, double sensor_mm);
+std::vector<Part> MirrorParts(const RigDesign& design, const Scene& scene);
+std::vector<Part> RayParts(const OpticalRig& rig, const RigDesign& design, const Scene& scene,
+                           double sensor_mm);
 
 }  // namespace telestrain::viz
