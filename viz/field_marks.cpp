@@ -6,13 +6,14 @@
 #include <set>
 
 #include "viz/scene/scene_colors.h"
+#include "viz/scene_marks.h"
 
 namespace telestrain::viz {
 namespace {
 
 constexpr Rgb kPaper{1, 1, 1};
 constexpr Rgb kFailure{0.78, 0.02, 0.20};
-constexpr double kArrowSpacing_pt = 19, kArrow_pt = 0.9, kHalo_pt = 0.8, kHead_pt = 3.4;
+constexpr double kArrowSpacing_pt = 19, kHalo_pt = 0.8;
 constexpr double kCross_pt = 1.7, kDot_pt = 1.1, kLeastDotSpacing_pt = 3.2;
 
 }  // namespace
@@ -24,21 +25,6 @@ FieldMarks::FieldMarks(Canvas* canvas, const ImageBackdrop& backdrop, const Fiel
 Eigen::Vector2d FieldMarks::CanvasPlace(const Eigen::Vector2d& place_px) const {
   const Eigen::Vector2d place = backdrop_.BackdropPlace(place_px);
   return {upper_left_.x() + place.x(), upper_left_.y() - place.y()};
-}
-
-void FieldMarks::AddArrow(const Eigen::Vector2d& tail, const Eigen::Vector2d& tip) const {
-  const Eigen::Vector2d along = tip - tail;
-  const double head_px = std::min(canvas_->Px(kHead_pt), 0.5 * along.norm());
-  if (along.norm() < 2) return;  // shorter than its line is wide
-  const Eigen::Vector2d back = -head_px * along.normalized();
-  constexpr double kHalfAngle_rad = 0.45;
-  const Eigen::Vector2d sides[] = {tip + Eigen::Rotation2Dd(kHalfAngle_rad) * back,
-                                   tip + Eigen::Rotation2Dd(-kHalfAngle_rad) * back};
-  const double ink_px = canvas_->Px(kArrow_pt), halo_px = ink_px + canvas_->Px(kHalo_pt);
-  for (const auto& [color, width_px] : {std::pair{kPaper, halo_px}, {kInk, ink_px}}) {
-    canvas_->Shapes().AddLine(tail, tip, color, width_px);
-    for (const Eigen::Vector2d& side : sides) canvas_->Shapes().AddLine(tip, side, color, width_px);
-  }
 }
 
 FieldMarks::ArrowKey FieldMarks::AddArrows() const {
@@ -64,7 +50,7 @@ FieldMarks::ArrowKey FieldMarks::AddArrows() const {
       if (!sample.is_point || sample.failed) continue;
       const Eigen::Vector2d tail = CanvasPlace(sample.at_px);
       const Eigen::Vector2d way(sample.arrow_px.x(), -sample.arrow_px.y());
-      AddArrow(tail, tail + enlarged * backdrop_.magnification() * way);
+      AddFlatArrow(canvas_, tail, tail + enlarged * backdrop_.magnification() * way);
     }
   return {enlarged, RoundDown(*nearly_longest)};
 }

@@ -27,8 +27,6 @@ class FieldMarks {
   // False when the grid is too fine for dots.
   bool AddGridDots() const;
 
-  // The arrow from `tail` to `tip`, px of the canvas.
-  void AddArrow(const Eigen::Vector2d& tail, const Eigen::Vector2d& tip) const;
   void AddCross(const Eigen::Vector2d& at) const;
   void AddSquare(const Eigen::Vector2d& center, double side_px) const;
   double PicturePx(double image_px) const { return image_px * backdrop_.magnification(); }

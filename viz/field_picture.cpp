@@ -9,6 +9,7 @@
 #include "viz/field_marks.h"
 #include "viz/legend.h"
 #include "viz/scene/scene_colors.h"
+#include "viz/scene_marks.h"
 
 namespace telestrain::viz {
 namespace {
@@ -178,7 +179,7 @@ class FieldDrawing {
     if (arrows_.enlarged > 0) {
       const double length = arrows_.enlarged * marks.PicturePx(arrows_.length_px);
       const Eigen::Vector2d half(0.5 * std::min(length, 0.84 * sign_px), 0);
-      marks.AddArrow(at + middle - half, at + middle + half);
+      AddFlatArrow(canvas_, at + middle - half, at + middle + half);
       add(ArrowText(length > 0.84 * sign_px));
     }
     marks.AddSquare(at + middle, std::min(marks.PicturePx(scene_.subset_px), 0.6 * line_px));

@@ -57,10 +57,24 @@ struct PictureChoices {
 // The standard pictures. Fail (kOutputFailed) when rendering does. The same scene gives the same
 // pixels on one kind of CPU. One to two seconds of computing each at 300 dpi.
 Result<Picture> DrawArray(const Scene& scene, const RenderOptions& options);
+// Across and along the pipe; from the instrument. Distance of the fields, stereo angle.
+Result<Picture> DrawSide(const Scene& scene, const RenderOptions& options);
+Result<Picture> DrawTop(const Scene& scene, const RenderOptions& options);
 Result<Picture> DrawTargets(const Scene& scene, const RenderOptions& options);
-// Needs scene.pipe with states.
+// Mean and RMS of the residuals over the sensor's plane; needs scene.residual_cells.
+Result<Picture> DrawResiduals(const Scene& scene, const RenderOptions& options);
+// The pipe with displacement arrows and strain gauges; needs scene.pipe with states, as the next.
+Result<Picture> DrawPipe(const Scene& scene, const RenderOptions& options);
 Result<Picture> DrawPipeStrain(const Scene& scene, const RenderOptions& options,
                                const PictureChoices& choices = {});
+
+// Pictures side by side, as large as they fit, each with its name above.
+struct NamedImage {
+  std::string name;
+  const RgbImage* image = nullptr;
+};
+Result<Picture> DrawContactSheet(const std::vector<NamedImage>& images, const std::string& facts,
+                                 const RenderOptions& options);
 
 // The colours of the strain pictures, for whoever compares.
 ColorScale StrainScale(const Surface& surface);

@@ -73,25 +73,10 @@ void AddStereoAngle(Canvas* canvas, const std::string& panel, vtkRenderer* rende
                                   [&](const ViewDesign& v) { return v.name == pair.first; });
   const Eigen::Vector3d start = -first->middle_ray.direction;
   const Eigen::Vector3d axis = start.cross(pair.facing).normalized();
+  const Eigen::Vector3d end = Eigen::AngleAxisd(pair.stereo_angle_rad, axis) * start;
   const double radius_mm =
       0.35 * (first->middle_ray.end_mm - first->middle_ray.Corners().rbegin()[1]).norm();
-  std::vector<Segment> arc;
-  constexpr int kParts = 24;
-  const auto at = [&](int i) -> Eigen::Vector3d {
-    const Eigen::AngleAxisd turn(pair.stereo_angle_rad * i / kParts, axis);
-    return pair.center_in_array_mm + radius_mm * (turn * start);
-  };
-  for (int i = 0; i < kParts; ++i) arc.emplace_back(at(i), at(i + 1));
-  Part part;
-  part.mesh = Lines(arc);
-  part.color = kInk;
-  part.line_width_pt = 0.7;
-  AddParts(renderer, {part}, nullptr, canvas->Px(1));
-  Label label;
-  label.text = FormatFixed(pair.stereo_angle_rad * 180 / std::numbers::pi, 1) + "\u00b0";
-  label.anchor_in_array_mm = at(kParts / 2);
-  label.leader = false;
-  canvas->AddLabel(panel, label);
+  AddAngle(canvas, panel, renderer, pair.center_in_array_mm, {start, end}, radius_mm);
 }
 
 // Below everything, at the front.

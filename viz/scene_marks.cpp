@@ -1,8 +1,11 @@
 #include "viz/scene_marks.h"
 
+#include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "base/numbers.h"
 #include "viz/legend.h"
 #include "viz/part_actors.h"
 #include "viz/scene/scene_colors.h"
@@ -88,6 +91,43 @@ void AddDimension(Canvas* canvas, const std::string& panel, vtkRenderer* rendere
   label.text = text;
   label.anchor_in_array_mm = middle;
   label.style = {8, true, kInk};
+  label.leader = false;
+  canvas->AddLabel(panel, label);
+}
+
+void AddFlatArrow(Canvas* canvas, const Eigen::Vector2d& tail, const Eigen::Vector2d& tip) {
+  constexpr double kInk_pt = 0.9, kHalo_pt = 0.8, kHead_pt = 3.4, kHalfAngle_rad = 0.45;
+  constexpr Rgb kPaper{1, 1, 1};
+  const Eigen::Vector2d along = tip - tail;
+  if (along.norm() < 2) return;
+  const double head_px = std::min(canvas->Px(kHead_pt), 0.5 * along.norm());
+  const Eigen::Vector2d back = -head_px * along.normalized();
+  const Eigen::Vector2d sides[] = {tip + Eigen::Rotation2Dd(kHalfAngle_rad) * back,
+                                   tip + Eigen::Rotation2Dd(-kHalfAngle_rad) * back};
+  const double ink_px = canvas->Px(kInk_pt), halo_px = ink_px + canvas->Px(kHalo_pt);
+  for (const auto& [color, width_px] : {std::pair{kPaper, halo_px}, {kInk, ink_px}}) {
+    canvas->Shapes().AddLine(tail, tip, color, width_px);
+    for (const Eigen::Vector2d& side : sides) canvas->Shapes().AddLine(tip, side, color, width_px);
+  }
+}
+
+void AddAngle(Canvas* canvas, const std::string& panel, vtkRenderer* renderer,
+              const Eigen::Vector3d& center_in_array_mm, const Segment& directions,
+              double radius_mm) {
+  const auto& [start, end] = directions;
+  const double angle_rad = std::acos(std::clamp(start.dot(end), -1.0, 1.0));
+  const Eigen::Vector3d axis = start.cross(end).normalized();
+  constexpr int kParts = 24;
+  const auto at = [&](int i) -> Eigen::Vector3d {
+    return center_in_array_mm +
+           radius_mm * (Eigen::AngleAxisd(angle_rad * i / kParts, axis) * start);
+  };
+  std::vector<Segment> arc;
+  for (int i = 0; i < kParts; ++i) arc.emplace_back(at(i), at(i + 1));
+  AddParts(renderer, {Mark(Lines(arc), kInk, 0.7)}, nullptr, canvas->Px(1));
+  Label label;
+  label.text = FormatFixed(angle_rad * 180 / std::numbers::pi, 1) + "\u00b0";
+  label.anchor_in_array_mm = at(kParts / 2);
   label.leader = false;
   canvas->AddLabel(panel, label);
 }

@@ -24,4 +24,13 @@ void NameViews(Canvas* canvas, const std::string& panel, const Scene& scene);
 void AddDimension(Canvas* canvas, const std::string& panel, vtkRenderer* renderer,
                   const Segment& line, double thickness_mm, const std::string& text);
 
+// A flat arrow over everything, px of the canvas, dark on a white rim; none where it would be
+// shorter than its line is wide.
+void AddFlatArrow(Canvas* canvas, const Eigen::Vector2d& tail, const Eigen::Vector2d& tip);
+
+// An arc about `center` from one direction to another (unit vectors), with the angle in degrees.
+void AddAngle(Canvas* canvas, const std::string& panel, vtkRenderer* renderer,
+              const Eigen::Vector3d& center_in_array_mm, const Segment& directions,
+              double radius_mm);
+
 }  // namespace telestrain::viz

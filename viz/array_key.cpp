@@ -1,7 +1,8 @@
+#include "viz/array_key.h"
+
 #include "base/numbers.h"
 #include "viz/color_bar.h"
 #include "viz/legend.h"
-#include "viz/part_actors.h"
 #include "viz/pictures.h"
 #include "viz/scene/scene_colors.h"
 #include "viz/scene_marks.h"
@@ -9,22 +10,7 @@
 namespace telestrain::viz {
 namespace {
 
-constexpr ViewDirection kDirection{26, 13};
-constexpr double kFooter_pt = 48;
-constexpr double kMargin_pt = 6;
-
-std::vector<Eigen::Vector3d> ExtentOf(const Scene& scene) {
-  std::vector<Eigen::Vector3d> points;
-  for (const ViewVolume& view : scene.views)
-    for (const double along_mm : {-StretchOf(scene), 0.5 * view.depth_of_field_mm})
-      for (const Eigen::Vector3d& corner : view.Section(along_mm)) points.push_back(corner);
-  for (const Board& board : scene.boards)
-    points.insert(points.end(), board.outline_in_array_mm.begin(), board.outline_in_array_mm.end());
-  if (!scene.pipe) return points;
-  const auto outline = OutlineOfPipe(*scene.pipe, DrawnSpanOf(*scene.pipe));
-  points.insert(points.end(), outline.begin(), outline.end());
-  return points;
-}
+constexpr double kFooter_pt = 48, kMargin_pt = 6;
 
 std::vector<LegendEntry> LegendOf(const Scene& scene) {
   using Sign = LegendEntry::Sign;
@@ -55,23 +41,15 @@ std::vector<LegendEntry> LegendOf(const Scene& scene) {
   return entries;
 }
 
-void AddBodies(Canvas* canvas, const Scene& scene, vtkRenderer* renderer) {
-  const double point_px = canvas->Px(1);
-  AddParts(renderer, ViewParts(scene), nullptr, point_px);
-  NameViews(canvas, "array", scene);
-  AddParts(renderer, BoardParts(scene), nullptr, point_px);
-  if (!scene.pipe) return;
-  const ValueColors colors{kAxialStrain, ValueColorMap(StrainScale(scene.pipe->Largest().surface))};
-  AddParts(renderer, {PipePart(*scene.pipe, DrawnSpanOf(*scene.pipe))}, nullptr, point_px);
-  AddParts(renderer, SurfaceParts(scene, scene.pipe->largest_state), &colors, point_px);
-  AddParts(renderer, GaugeParts(scene), nullptr, point_px);
-}
+}  // namespace
 
-Status AddFooter(Canvas* canvas, const Scene& scene) {
+double ArrayKeyHeight(const Canvas& canvas) { return canvas.Px(kFooter_pt + kMargin_pt); }
+
+Status AddArrayKey(Canvas* canvas, const Scene& scene, const ViewDirection& direction) {
   const double margin = canvas->Px(kMargin_pt), height = canvas->Px(kFooter_pt);
   const double triad_px = canvas->Px(48), bar_px = canvas->Px(112);
   const double bar_left = canvas->Width() - bar_px - canvas->Px(14);
-  AddTriad(canvas, AxesOf(scene), kDirection, {margin, margin, triad_px, height - margin});
+  AddTriad(canvas, AxesOf(scene), direction, {margin, margin, triad_px, height - margin});
   const double legend_left = margin + triad_px + canvas->Px(4);
   const double legend_px = bar_left - legend_left - canvas->Px(6);
   std::optional<ColorMap> strain_colors;
@@ -91,29 +69,6 @@ Status AddFooter(Canvas* canvas, const Scene& scene) {
   AddColorBar(canvas, ResidualColors(scene.boards), ResidualScale(scene.boards),
               "board residual RMS / px", {bar_left, 0, bar_px, height});
   return {};
-}
-
-}  // namespace
-
-Result<Picture> DrawArray(const Scene& scene, const RenderOptions& options) {
-  TELESTRAIN_ASSIGN_OR_RETURN(const auto canvas, Canvas::Create(options));
-  const double top =
-      AddTitle(canvas.get(), "Telecentric view array",
-               "virtual views through the mirrors, parallel rays; magnification " +
-                   FormatFixed(scene.magnification_px_per_mm, 3) + " px/mm, reprojection RMS " +
-                   FormatFixed(scene.reprojection_rms_px, 4) + " px");
-  const double footer = canvas->Px(kFooter_pt + kMargin_pt);
-  const PixelBox box{0, footer, canvas->Width(), top - footer};
-  const SceneAxes axes = AxesOf(scene);
-  std::vector<Eigen::Vector3d> extent = ExtentOf(scene);
-  const ScaleBar bar = ScaleBarBelow(extent, axes, 0.3);
-  extent.push_back(bar.start_in_array_mm);
-  vtkRenderer* renderer =
-      canvas->AddPanel("array", box, FitCamera(extent, axes, kDirection, box, canvas->Px(13)));
-  AddBodies(canvas.get(), scene, renderer);
-  AddScaleBar(canvas.get(), "array", renderer, bar);
-  TELESTRAIN_RETURN_IF_ERROR(AddFooter(canvas.get(), scene));
-  return canvas->Finish();
 }
 
 }  // namespace telestrain::viz

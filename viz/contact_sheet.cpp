@@ -1,0 +1,94 @@
+#include <algorithm>
+#include <cmath>
+
+#include "viz/legend.h"
+#include "viz/pictures.h"
+#include "viz/scene/scene_colors.h"
+
+namespace telestrain::viz {
+namespace {
+
+constexpr double kMargin_pt = 6, kCaption_pt = 11, kGap_pt = 5;
+
+// A copy of this size whose pixels are means over the pixels of `image` that they cover, in sRGB
+// values: pictures on white paper stay as light as they are.
+RgbImage Shrunk(const RgbImage& image, int width_px, int height_px) {
+  RgbImage small{width_px, height_px, image.dots_per_inch, {}};
+  small.rgb.resize(3 * static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px));
+  for (int y = 0; y < height_px; ++y) {
+    const int top = y * image.height_px / height_px;
+    const int bottom = std::max(top + 1, (y + 1) * image.height_px / height_px);
+    for (int x = 0; x < width_px; ++x) {
+      const int left = x * image.width_px / width_px;
+      const int right = std::max(left + 1, (x + 1) * image.width_px / width_px);
+      const int count = (bottom - top) * (right - left);
+      for (int channel = 0; channel < 3; ++channel) {
+        int sum = 0;
+        for (int row = top; row < bottom; ++row)
+          for (int column = left; column < right; ++column)
+            sum +=
+                image.rgb[static_cast<std::size_t>(3 * (row * image.width_px + column) + channel)];
+        small.rgb[static_cast<std::size_t>(3 * (y * width_px + x) + channel)] =
+            static_cast<std::uint8_t>((sum + count / 2) / count);
+      }
+    }
+  }
+  return small;
+}
+
+// Columns and rows of equal cells that show the pictures largest.
+struct Grid {
+  int columns = 1, rows = 1;
+  double scale = 0;  // of the pictures
+};
+
+Grid BestGrid(const std::vector<NamedImage>& images, const PixelBox& box, double caption_px,
+              double gap_px) {
+  Grid best;
+  const auto count = static_cast<int>(images.size());
+  for (int columns = 1; columns <= count; ++columns) {
+    const int rows = (count + columns - 1) / columns;
+    const double width = (box.width - (columns - 1) * gap_px) / columns;
+    const double height = (box.height - (rows - 1) * gap_px) / rows - caption_px;
+    double scale = 1;
+    for (const NamedImage& named : images)
+      scale = std::min({scale, width / named.image->width_px, height / named.image->height_px});
+    if (scale > best.scale) best = {columns, rows, scale};
+  }
+  return best;
+}
+
+}  // namespace
+
+Result<Picture> DrawContactSheet(const std::vector<NamedImage>& images, const std::string& facts,
+                                 const RenderOptions& options) {
+  TELESTRAIN_CHECK(!images.empty(), "a contact sheet needs pictures");
+  TELESTRAIN_ASSIGN_OR_RETURN(const auto canvas, Canvas::Create(options));
+  const double top = AddTitle(canvas.get(), "All pictures", facts);
+  const double margin = canvas->Px(kMargin_pt), gap = canvas->Px(kGap_pt);
+  const double caption = canvas->Px(kCaption_pt);
+  const PixelBox box{margin, margin, canvas->Width() - 2 * margin, top - 2 * margin};
+  const Grid grid = BestGrid(images, box, caption, gap);
+  if (grid.scale <= 0)
+    return OutputFailed("pictures: " + std::to_string(images.size()) +
+                        " pictures do not fit on the contact sheet; render a larger picture");
+  const double cell_width = (box.width + gap) / grid.columns,
+               cell_height = (box.height + gap) / grid.rows;
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    const RgbImage small = Shrunk(
+        *images[i].image, std::max(1, static_cast<int>(grid.scale * images[i].image->width_px)),
+        std::max(1, static_cast<int>(grid.scale * images[i].image->height_px)));
+    const double left =
+        box.left + static_cast<double>(i % static_cast<std::size_t>(grid.columns)) * cell_width;
+    const double upper =
+        box.Top() - static_cast<double>(i / static_cast<std::size_t>(grid.columns)) * cell_height;
+    canvas->AddText(images[i].name, {left, upper - caption + canvas->Px(2)}, {7, true, kInk});
+    const PixelBox place{std::round(left), std::round(upper - caption - small.height_px),
+                         double(small.width_px), double(small.height_px)};
+    canvas->AddImage(small, {place.left, place.bottom});
+    canvas->Shapes().AddFrame(place.Grown(1), kRejectedColor, 1);
+  }
+  return canvas->Finish();
+}
+
+}  // namespace telestrain::viz
