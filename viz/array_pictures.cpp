@@ -1,4 +1,5 @@
 #include <Eigen/Geometry>
+#include <algorithm>
 
 #include "base/numbers.h"
 #include "viz/array_key.h"
@@ -68,7 +69,7 @@ void AddFieldDistance(Canvas* canvas, const std::string& panel, vtkRenderer* ren
   if (groups.size() < 2) return;
   const Eigen::Vector3d from = MiddleOfGroup(scene, groups.front()) + offset_mm;
   const Eigen::Vector3d to = MiddleOfGroup(scene, groups.back()) + offset_mm;
-  AddDimension(canvas, panel, renderer, {from, to}, 0.018 * (to - from).norm(),
+  AddDimension(canvas, panel, renderer, {from, to}, 0.007 * (to - from).norm(),
                "fields " + FormatFixed((to - from).norm(), 2) + " mm apart");
 }
 
@@ -121,7 +122,8 @@ Result<Picture> DrawSide(const Scene& scene, const RenderOptions& options) {
   const double split = kSideShare * canvas->Width();
   const SceneAxes axes = AxesOf(scene);
   std::vector<Eigen::Vector3d> extent = ExtentOf(scene);
-  const ScaleBar bar = ScaleBarBelow(extent, axes, 0.3);
+  ScaleBar bar = ScaleBarBelow(extent, axes, 0.3);
+  bar.start_in_array_mm -= 0.06 * bar.length_mm * axes.up;
   extent.push_back(bar.start_in_array_mm - 0.1 * bar.length_mm * axes.up);
   const PixelBox left = WithHeading(canvas.get(), "across the pipe", {0, footer, split, height});
   vtkRenderer* renderer = AddArrayPanel(canvas.get(), scene, "side", kSide, left, extent);
@@ -143,12 +145,16 @@ Result<Picture> DrawTop(const Scene& scene, const RenderOptions& options) {
   const SceneAxes axes = AxesOf(scene);
   std::vector<Eigen::Vector3d> extent = ExtentOf(scene);
   ScaleBar bar = ScaleBarBelow(extent, axes, 0.3);
-  bar.start_in_array_mm -= 0.2 * bar.length_mm * axes.across;
+  double lowest_mm = 0;
+  for (const Eigen::Vector3d& point : extent)
+    lowest_mm = std::min(lowest_mm, axes.across.dot(point - bar.start_in_array_mm));
+  bar.start_in_array_mm += (lowest_mm - 0.12 * bar.length_mm) * axes.across;
   extent.push_back(bar.start_in_array_mm - 0.1 * bar.length_mm * axes.across);
   vtkRenderer* renderer = AddArrayPanel(canvas.get(), scene, "top", kFromAbove,
                                         {0, footer, canvas->Width(), top - footer}, extent);
   AddScaleBar(canvas.get(), "top", renderer, bar);
-  AddFieldDistance(canvas.get(), "top", renderer, scene, Eigen::Vector3d::Zero());
+  // Above everything, so that no volume covers its ends.
+  AddFieldDistance(canvas.get(), "top", renderer, scene, StretchOf(scene) * axes.up);
   TELESTRAIN_RETURN_IF_ERROR(AddArrayKey(canvas.get(), scene, kFromAbove));
   return canvas->Finish();
 }

@@ -12,8 +12,8 @@
 namespace telestrain::viz {
 namespace {
 
-constexpr ViewDirection kFront{0, 24}, kFromInstrument{0, 90};
-constexpr double kMargin_pt = 6, kFooter_pt = 48, kFrontShare = 0.52;
+constexpr ViewDirection kFront{0, 24}, kCloseUp{0, 68};
+constexpr double kMargin_pt = 6, kFooter_pt = 48, kFrontShare = 0.55;
 const std::string kMicrostrain = "\u00b5\u03b5";
 
 const PipeState& StateOf(const Scene& scene) { return scene.pipe->Largest(); }
@@ -40,29 +40,51 @@ void NameGauges(Canvas* canvas, const std::string& panel, const Scene& scene,
   }
 }
 
-void AddPanelOfPipe(Canvas* canvas, const Scene& scene, const std::string& name,
-                    const ViewDirection& direction, const PixelBox& box, bool with_arrows) {
+void AddFront(Canvas* canvas, const Scene& scene, const PixelBox& box) {
   const Pipe& pipe = *scene.pipe;
-  const ColorScale scale = StrainScale(StateOf(scene).surface);
-  const ValueColors colors{kAxialStrain, ValueColorMap(scale)};
+  const ValueColors colors{kAxialStrain, ValueColorMap(StrainScale(StateOf(scene).surface))};
   auto extent = OutlineOfPipe(pipe, DrawnSpanOf(pipe));
   const SceneAxes axes = AxesOf(scene);
-  const ScaleBar bar = ScaleBarBelow(extent, axes, 0.3);
-  const double drop_mm = 0.35 * pipe.radius_mm;
-  const ScaleBar lower{bar.start_in_array_mm - drop_mm * (axes.up + axes.across), bar.direction,
-                       bar.length_mm};
-  extent.push_back(lower.start_in_array_mm - drop_mm * (axes.up + axes.across));
-  extent.push_back(pipe.axis_point_in_array_mm + 2.1 * pipe.radius_mm * axes.up);
-  const ParallelCamera camera = FitCamera(extent, axes, direction, box, canvas->Px(8));
-  vtkRenderer* renderer = canvas->AddPanel(name, box, camera);
+  ScaleBar bar = ScaleBarBelow(extent, axes, 0.3);
+  bar.start_in_array_mm -= 0.5 * pipe.radius_mm * axes.across;
+  extent.push_back(bar.start_in_array_mm - 0.3 * pipe.radius_mm * axes.up);
+  extent.push_back(pipe.axis_point_in_array_mm + 1.4 * pipe.radius_mm * axes.up);
+  const ParallelCamera camera = FitCamera(extent, axes, kFront, box, canvas->Px(4));
+  vtkRenderer* renderer = canvas->AddPanel("front", box, camera);
   AddParts(renderer, {PipePart(pipe, DrawnSpanOf(pipe))}, nullptr, canvas->Px(1));
   AddParts(renderer, SurfaceParts(scene, pipe.largest_state), &colors, canvas->Px(1));
   AddParts(renderer, GaugeParts(scene), nullptr, canvas->Px(1));
-  if (with_arrows)
-    AddParts(renderer, DisplacementParts(scene, pipe.largest_state, DisplacementFactor(scene)),
-             nullptr, canvas->Px(1));
-  AddScaleBar(canvas, name, renderer, lower);
-  NameGauges(canvas, name, scene, camera.towards_viewer);
+  AddParts(renderer, DisplacementParts(scene, pipe.largest_state, DisplacementFactor(scene)),
+           nullptr, canvas->Px(1));
+  AddScaleBar(canvas, "front", renderer, bar);
+  NameGauges(canvas, "front", scene, camera.towards_viewer);
+}
+
+// One group's region with its arrows, its heading above.
+void AddCloseUp(Canvas* canvas, const Scene& scene, int group, PixelBox box) {
+  const Pipe& pipe = *scene.pipe;
+  const std::vector<std::string> groups = scene.Groups();
+  const auto points = PointsOfGroup(StateOf(scene).surface, group);
+  const auto index = static_cast<std::size_t>(group);
+  if (points.empty() || index >= groups.size()) return;
+  const TextStyle heading{8, true, kInk};
+  const std::string text = "displacement in group " + Shortened(groups[index]);
+  const Eigen::Vector2d size = canvas->TextSize(text, heading);
+  box.height -= size.y() + canvas->Px(2);
+  canvas->AddText(text, {box.left + 0.5 * (box.width - size.x()), box.Top()}, heading);
+  const std::vector<Part> arrows =
+      DisplacementParts(scene, pipe.largest_state, DisplacementFactor(scene));
+  std::vector<Eigen::Vector3d> extent = points;
+  // The arrows of both groups are one part: those near this group's points count.
+  for (const Eigen::Vector3d& point : PointsOf(arrows))
+    if ((point - points[points.size() / 2]).norm() < 0.35 * pipe.base_length_mm)
+      extent.push_back(point);
+  const std::string panel = "group " + groups[index];
+  vtkRenderer* renderer =
+      canvas->AddPanel(panel, box, FitCamera(extent, AxesOf(scene), kCloseUp, box, canvas->Px(3)));
+  const ValueColors colors{kAxialStrain, ValueColorMap(StrainScale(StateOf(scene).surface))};
+  AddParts(renderer, SurfaceParts(scene, pipe.largest_state, group), &colors, canvas->Px(1));
+  AddParts(renderer, arrows, nullptr, canvas->Px(1));
 }
 
 Status AddFooter(Canvas* canvas, const Scene& scene) {
@@ -107,10 +129,11 @@ Result<Picture> DrawPipe(const Scene& scene, const RenderOptions& options) {
                                   "; displacement against the reference state, rigid motion in it");
   const double footer = canvas->Px(kFooter_pt + kMargin_pt);
   const double height = top - footer, split = footer + (1 - kFrontShare) * height;
-  AddPanelOfPipe(canvas.get(), scene, "front", kFront, {0, split, canvas->Width(), top - split},
-                 true);
-  AddPanelOfPipe(canvas.get(), scene, "from the instrument", kFromInstrument,
-                 {0, footer, canvas->Width(), split - footer}, false);
+  AddFront(canvas.get(), scene, {0, split, canvas->Width(), top - split});
+  for (const int group : {0, 1})
+    AddCloseUp(canvas.get(), scene, group,
+               {0.5 * group * canvas->Width(), footer, 0.5 * canvas->Width(),
+                split - footer - canvas->Px(6)});
   TELESTRAIN_RETURN_IF_ERROR(AddFooter(canvas.get(), scene));
   return canvas->Finish();
 }

@@ -13,7 +13,7 @@ namespace telestrain::viz {
 namespace {
 
 constexpr int kColumns = 12, kRows = 9;  // cells of a view's region, as ResidualCell
-constexpr double kMargin_pt = 6, kFooter_pt = 40;
+constexpr double kMargin_pt = 6, kFooter_pt = 40, kNames_pt = 60;
 
 // Sensor pixels on the canvas: one scale, row 0 at the top.
 struct SensorMap {
@@ -88,11 +88,13 @@ void AddRegions(Canvas* canvas, const Scene& scene, const SensorMap& map) {
     const TextStyle style{9, true, ColorOfGroup(scene, scene.views[i].group)};
     const std::string name = Shortened(scene.views[i].name);
     const Eigen::Vector2d text = canvas->TextSize(name, style);
-    const double pad = canvas->Px(2);
-    const PixelBox tag{box.left + canvas->Px(0.8), box.Top() - text.y() - 2 * pad,
-                       text.x() + 2 * pad, text.y() + 2 * pad - canvas->Px(0.8)};
-    canvas->Shapes().AddBox(tag, {1, 1, 1});
-    canvas->AddText(name, {tag.left + pad, tag.bottom + pad}, style);
+    // Beside the sensor, on the side that is nearer.
+    const bool left = box.left + 0.5 * box.width < map.box.left + 0.5 * map.box.width;
+    const double gap = canvas->Px(4);
+    canvas->AddText(
+        name,
+        {left ? map.box.left - gap - text.x() : map.box.Right() + gap, box.Top() - text.y() - gap},
+        style);
   }
 }
 

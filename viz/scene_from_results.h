@@ -7,12 +7,9 @@
 
 namespace telestrain::viz {
 
-// Reads calibration.json, inputs.json and, when they are there, ruler.json, strain.json and the
-// surface file of the state with the largest strain. Fails (kBadInput) with the file, the field,
-// what was found and the command that makes the file again.
+// Reads all that a scene shows: inputs.json and calibration.json and, when they are there,
+// residuals.csv, ruler.json, strain.json and the pipe_NNN.vtp of every state. Fails (kBadInput)
+// with the file, the field, what was found and the command that makes the file again.
 Result<Scene> SceneFromResults(const std::filesystem::path& results);
-
-// The pipe part alone; empty when the folder has no strain.json.
-Result<std::optional<Pipe>> PipeFromResults(const std::filesystem::path& results);
 
 }  // namespace telestrain::viz

@@ -67,15 +67,17 @@ void NameViews(Canvas* canvas, const std::string& panel, const Scene& scene) {
     Label label;
     label.anchor_in_array_mm = TopOf(scene, scene.views[i]);
     label.text = scene.views[i].name;
+    bool one_group = true;
     const Eigen::Vector2d at = canvas->DisplayOf(panel, label.anchor_in_array_mm);
     for (std::size_t k = i + 1; k < scene.views.size(); ++k) {
       const Eigen::Vector2d other = canvas->DisplayOf(panel, TopOf(scene, scene.views[k]));
       if (named[k] || (other - at).norm() > near_px) continue;
       named[k] = true;
+      one_group = one_group && scene.views[k].group == scene.views[i].group;
       label.text += ", " + scene.views[k].name;
     }
     label.text = Shortened(label.text);
-    label.style = {9, true, ColorOfGroup(scene, scene.views[i].group)};
+    label.style = {9, true, one_group ? ColorOfGroup(scene, scene.views[i].group) : kInk};
     canvas->AddLabel(panel, label);
   }
 }

@@ -8,30 +8,79 @@
 #include <vtkPolyData.h>
 #include <vtkXMLPolyDataReader.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "viz/quantity.h"
 #include "viz/vtk_messages.h"
 
 namespace telestrain::viz {
 namespace {
+
+constexpr const char* kAxial = "axial_microstrain";
+constexpr const char* kSigma = "sigma_um";
+constexpr const char* kDisplacement = "displacement_mm";
+constexpr const char* kGroup = "group";
 
 Error Malformed(const std::filesystem::path& path, const std::string& problem) {
   return BadInput(path.string() + ": " + problem +
                   "; make the file again with 'telestrain measure'");
 }
 
-// The point data array of that name with one finite number per point, or an empty vector.
-std::vector<double> PointNumbers(vtkPolyData* data, const char* name) {
-  vtkDataArray* array = data->GetPointData()->GetArray(name);
-  if (array == nullptr || array->GetNumberOfComponents() != 1 ||
-      array->GetNumberOfTuples() != data->GetNumberOfPoints())
-    return {};
+// Whether the array has a row of `components` numbers for every point.
+bool FitsPoints(vtkDataArray* array, vtkPolyData* data, int components) {
+  return array != nullptr && array->GetNumberOfComponents() == components &&
+         array->GetNumberOfTuples() == data->GetNumberOfPoints();
+}
+
+// One number per point, NaN where it is not finite.
+std::vector<double> Numbers(vtkDataArray* array) {
   std::vector<double> numbers(static_cast<std::size_t>(array->GetNumberOfTuples()));
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     numbers[i] = array->GetComponent(static_cast<vtkIdType>(i), 0);
-    if (!std::isfinite(numbers[i])) return {};
+    if (!std::isfinite(numbers[i])) numbers[i] = std::numeric_limits<double>::quiet_NaN();
   }
   return numbers;
+}
+
+// False when a point has no finite axial strain.
+bool ReadQuantities(vtkPolyData* data, Surface* surface) {
+  vtkPointData* arrays = data->GetPointData();
+  for (int i = 0; i < arrays->GetNumberOfArrays(); ++i) {
+    vtkDataArray* array = arrays->GetArray(i);
+    const std::string key = arrays->GetArrayName(i) == nullptr ? "" : arrays->GetArrayName(i);
+    if (key.empty() || key == kGroup || !FitsPoints(array, data, 1)) continue;
+    PointValues values{QuantityOf(key), Numbers(array)};
+    if (key == kSigma) surface->sigma_um = values.values;
+    surface->values.insert(key == kAxial ? surface->values.begin() : surface->values.end(),
+                           std::move(values));
+  }
+  const PointValues* axial = surface->Find(kAxial);
+  return axial != nullptr && std::all_of(axial->values.begin(), axial->values.end(),
+                                         [](double value) { return std::isfinite(value); });
+}
+
+bool ReadGroups(vtkPolyData* data, int group_count, Surface* surface) {
+  vtkDataArray* array = data->GetPointData()->GetArray(kGroup);
+  if (!FitsPoints(array, data, 1)) return false;
+  for (const double group : Numbers(array)) {
+    if (!(group >= 0 && group < group_count && group == std::floor(group))) return false;
+    surface->group.push_back(static_cast<int>(group));
+  }
+  return true;
+}
+
+bool ReadDisplacements(vtkPolyData* data, Surface* surface) {
+  vtkDataArray* array = data->GetPointData()->GetArray(kDisplacement);
+  if (!FitsPoints(array, data, 3)) return false;
+  for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i) {
+    Eigen::Vector3d displacement_mm;
+    array->GetTuple(i, displacement_mm.data());
+    if (!displacement_mm.allFinite()) return false;
+    surface->displacement_mm.push_back(displacement_mm);
+  }
+  return true;
 }
 
 // False when a cell is no quad or names a point that does not exist.
@@ -64,7 +113,7 @@ bool ReadPoints(vtkPolyData* data, Surface* surface) {
 
 }  // namespace
 
-Result<Surface> ReadSurface(const std::filesystem::path& path) {
+Result<Surface> ReadSurface(const std::filesystem::path& path, int group_count) {
   if (!std::filesystem::is_regular_file(path))
     return Malformed(path, "does not exist, strain.json names it");
   VtkMessages messages;
@@ -77,14 +126,13 @@ Result<Surface> ReadSurface(const std::filesystem::path& path) {
   Surface surface;
   if (!ReadPoints(data, &surface)) return Malformed(path, "a point is not finite");
   if (!ReadQuads(data, &surface)) return Malformed(path, "valid quads are wanted as polygons");
-  PointValues axial{{"axial_microstrain", "axial strain", "\u00b5\u03b5"},
-                    PointNumbers(data, "axial_microstrain")};
-  if (axial.values.empty())
+  if (!ReadQuantities(data, &surface))
     return Malformed(path, "point data 'axial_microstrain' with a finite number per point missing");
-  surface.values.push_back(std::move(axial));
-  const std::vector<double> groups = PointNumbers(data, "group");
-  if (groups.empty()) return Malformed(path, "point data 'group' is missing");
-  for (const double group : groups) surface.group.push_back(group < 0.5 ? 0 : 1);
+  if (!ReadDisplacements(data, &surface))
+    return Malformed(path, "point data 'displacement_mm' with 3 finite numbers per point missing");
+  if (!ReadGroups(data, group_count, &surface))
+    return Malformed(path, "point data 'group' with whole numbers from 0 to " +
+                               std::to_string(group_count - 1) + " missing");
   return surface;
 }
 

@@ -51,7 +51,7 @@ void AddOverview(Canvas* canvas, const Scene& scene, const PixelBox& box) {
   const auto extent = ExtentOf(scene, "");
   vtkRenderer* renderer = canvas->AddPanel(
       "overview", box, FitCamera(extent, AxesOf(scene), kOverview, box, canvas->Px(9)));
-  AddParts(renderer, BoardParts(scene), nullptr, canvas->Px(0.8));
+  AddParts(renderer, BoardParts(scene), nullptr, canvas->Px(0.7));
   AddParts(renderer, RulerParts(scene), nullptr, canvas->Px(1));
 }
 
@@ -87,11 +87,11 @@ std::vector<LegendEntry> LegendOf(const Scene& scene) {
   using Sign = LegendEntry::Sign;
   std::vector<LegendEntry> entries;
   entries.push_back({Sign::kFrame, ColorMap::Plasma(0, 1).At(0.4), 1,
-                     std::to_string(scene.boards.size()) + " boards, coloured by residual RMS"});
+                     std::to_string(scene.boards.size()) + " boards"});
   entries.push_back({Sign::kBox,
                      {0.6, 0.6, 0.6},
                      0.5,
-                     CountOf(scene.rejected_board_views, "board view") + " rejected, not drawn"});
+                     CountOf(scene.rejected_board_views, "board view") + " rejected"});
   if (scene.rulers.empty() && scene.rejected_rulers == 0) {
     entries.push_back({Sign::kNone, {}, 1, "no ruler measured"});
     return entries;
@@ -108,8 +108,8 @@ std::vector<LegendEntry> LegendOf(const Scene& scene) {
 
 Status AddFooter(Canvas* canvas, const Scene& scene) {
   const double margin = canvas->Px(kMargin_pt), height = canvas->Px(kFooter_pt);
-  const double triad_px = canvas->Px(50), bar_px = canvas->Px(134);
-  const double bar_left = canvas->Width() - bar_px - canvas->Px(14);
+  const double triad_px = canvas->Px(50), bar_px = canvas->Px(96), gap_px = canvas->Px(16);
+  const double bar_left = canvas->Width() - 2 * bar_px - gap_px - canvas->Px(12);
   AddTriad(canvas, AxesOf(scene), kCloseUp, {margin, margin, triad_px, height - margin});
   const double legend_left = margin + triad_px + canvas->Px(8);
   TELESTRAIN_RETURN_IF_ERROR(
@@ -117,6 +117,9 @@ Status AddFooter(Canvas* canvas, const Scene& scene) {
                 {legend_left, margin, bar_left - legend_left - canvas->Px(8), height - margin}));
   AddColorBar(canvas, ResidualColors(scene.boards), ResidualScale(scene.boards),
               "board residual RMS / px", {bar_left, 0, bar_px, height});
+  if (!scene.rulers.empty())
+    AddColorBar(canvas, RulerColors(scene.rulers), RulerScale(scene.rulers),
+                "ruler length error / \u00b5m", {bar_left + bar_px + gap_px, 0, bar_px, height});
   return {};
 }
 

@@ -28,7 +28,8 @@ double LocalMicrostrain(const StateStrain& strain, std::size_t group) {
   return group < strain.local_axial_strain.size() ? kMicro * strain.local_axial_strain[group] : 0;
 }
 
-Json StateJson(const MeasuredState& state, std::size_t row) {
+Json StateJson(const PipeMeasurement& measurement, std::size_t row) {
+  const MeasuredState& state = measurement.states[row];
   const StateStrain& strain = state.strain;
   Json json{{"image", state.table.image},
             {"image_sha256", state.image_sha256.empty() ? Json(nullptr) : Json(state.image_sha256)},
@@ -41,6 +42,8 @@ Json StateJson(const MeasuredState& state, std::size_t row) {
             {"local_sigma_microstrain", kMicro * strain.local_sigma},
             {"gauge_mean_microstrain", OptionalNumber(state.gauge_mean_microstrain)},
             {"gauge_change_microstrain", OptionalNumber(state.gauge_change_microstrain)},
+            {"gauge_readings",
+             GaugeReadingsJson(measurement.gauge_columns, state.table.gauges_microstrain)},
             {"compared_microstrain", kMicro * state.compared.strain},
             {"compared_uncertainty_microstrain", kMicro * state.compared.standard_uncertainty},
             {"compared_at_gauges", state.compared.at_gauges},
@@ -171,7 +174,7 @@ nlohmann::ordered_json StrainJson(const PipeMeasurement& measurement,
   const double subset_mm = measurement.options.subset_px / measurement.magnification_px_per_mm;
   Json states = Json::array();
   for (std::size_t i = 0; i < measurement.states.size(); ++i)
-    states.push_back(StateJson(measurement.states[i], i));
+    states.push_back(StateJson(measurement, i));
   return {{"schema", kStrainSchema},
           {"made_from", made_from},
           {"pipe",

@@ -208,6 +208,7 @@ PipeMeasurement PipeSequence::Summary(std::vector<MeasuredState> states) const {
   measurement.magnification_px_per_mm = array_.Magnification_px_per_mm();
   measurement.options = options_;
   measurement.states = std::move(states);
+  measurement.gauge_columns = session_.gauge_columns;
   if (!measurement.states.empty()) AddSequence(session_, measurement);
   return measurement;
 }

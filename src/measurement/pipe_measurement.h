@@ -31,7 +31,8 @@ struct PipeMeasurement {
   PipeGeometry geometry;
   double magnification_px_per_mm = 0;
   PipeOptions options;
-  std::vector<MeasuredState> states;  // the reference first
+  std::vector<MeasuredState> states;       // the reference first
+  std::vector<std::string> gauge_columns;  // of pipe.csv, as the states' readings
   std::optional<GaugeComparison> comparison;
   std::vector<GaugeOutlier> gauge_outliers;
   std::vector<SequenceState> sequence_states;  // what `sequence` was made from

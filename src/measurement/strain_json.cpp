@@ -91,6 +91,19 @@ nlohmann::ordered_json StrainDetailsJson(const StateStrain& strain) {
           {"mechanical", MechanicalJson(strain.mechanical)}};
 }
 
+nlohmann::ordered_json GaugeReadingsJson(
+    const std::vector<std::string>& columns,
+    const std::vector<std::optional<double>>& readings_microstrain) {
+  Json json = Json::array();
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    // A state that came while watching may stand in no table.
+    const bool has_value = i < readings_microstrain.size() && readings_microstrain[i];
+    json.push_back({{"column", columns[i]},
+                    {"microstrain", has_value ? Json(*readings_microstrain[i]) : Json(nullptr)}});
+  }
+  return json;
+}
+
 nlohmann::ordered_json StrainDefinitionsJson() {
   return {
       {"strain", "engineering, relative to the reference state; Green-Lagrange where it says so"},

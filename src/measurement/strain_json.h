@@ -1,6 +1,7 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,12 @@ namespace telestrain {
 // The values of one state beyond the long base: local, split, gauges, mechanical; microstrain.
 // Joins the keys of the state's object in strain.json.
 nlohmann::ordered_json StrainDetailsJson(const StateStrain& strain);
+
+// What the strain gauges read in one state, one entry per column of pipe.csv; null where a gauge
+// has no value, or the state no row.
+nlohmann::ordered_json GaugeReadingsJson(
+    const std::vector<std::string>& columns,
+    const std::vector<std::optional<double>>& readings_microstrain);
 
 // What the strains of strain.json are, in words: definition, sign conventions, sources.
 nlohmann::ordered_json StrainDefinitionsJson();

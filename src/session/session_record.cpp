@@ -16,6 +16,32 @@ Eigen::Vector3d VectorOf(const Json& json) {
   return {json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>()};
 }
 
+Json CameraJson(const PhysicalCamera& camera) {
+  return {{"position_mm", ArrayOf(camera.position_mm)},
+          {"axis", ArrayOf(camera.axis)},
+          {"image_x", ArrayOf(camera.image_x)},
+          {"image_y", ArrayOf(camera.image_y)}};
+}
+
+PhysicalCamera CameraOf(const Json& json) {
+  return {VectorOf(json.at("position_mm")), VectorOf(json.at("axis")), VectorOf(json.at("image_x")),
+          VectorOf(json.at("image_y"))};
+}
+
+Json MirrorsJson(const std::vector<Mirror>& mirrors) {
+  Json json = Json::array();
+  for (const Mirror& mirror : mirrors)
+    json.push_back({{"point_mm", ArrayOf(mirror.point_mm)}, {"normal", ArrayOf(mirror.normal)}});
+  return json;
+}
+
+std::vector<Mirror> MirrorsOf(const Json& json) {
+  std::vector<Mirror> mirrors;
+  for (const Json& mirror : json)
+    mirrors.push_back({VectorOf(mirror.at("point_mm")), VectorOf(mirror.at("normal"))});
+  return mirrors;
+}
+
 Json ViewsJson(const Session& session) {
   Json views = Json::array();
   for (const NominalView& view : session.views) {
@@ -27,6 +53,7 @@ Json ViewsJson(const Session& session) {
                      {"image_y_in_array", ArrayOf(view.image_y_in_array)},
                      {"axis_in_array", ArrayOf(view.axis_in_array)},
                      {"center_in_array_mm", ArrayOf(view.center_in_array_mm)}});
+    if (!view.mirrors.empty()) views.back()["mirrors"] = MirrorsJson(view.mirrors);
   }
   return views;
 }
@@ -42,6 +69,7 @@ NominalView ViewOf(const Json& json) {
   view.image_y_in_array = VectorOf(json.at("image_y_in_array"));
   view.axis_in_array = VectorOf(json.at("axis_in_array"));
   view.center_in_array_mm = VectorOf(json.at("center_in_array_mm"));
+  if (json.contains("mirrors")) view.mirrors = MirrorsOf(json.at("mirrors"));
   return view;
 }
 
@@ -161,31 +189,33 @@ Json CalibrationImagesJson(const Session& session) {
 }  // namespace
 
 Json SessionRecord(const Session& session) {
-  return {{"title", session.title},
-          {"document", session.document},
-          {"sensor",
-           {{"width_px", session.sensor.width_px},
-            {"height_px", session.sensor.height_px},
-            {"pixel_pitch_um", session.sensor.pixel_pitch_um}}},
-          {"lens",
-           {{"magnification", session.lens_magnification},
-            {"depth_of_field_mm", session.depth_of_field_mm}}},
-          {"views", ViewsJson(session)},
-          {"stage",
-           {{"axis_in_array", ArrayOf(session.stage_axis_in_array)},
-            {"sigma_mm", session.stage_sigma_mm}}},
-          {"target", TargetJson(session.target)},
-          {"ruler",
-           {{"length_mm", session.ruler.length_mm},
-            {"sigma_length_um", session.ruler.sigma_length_um}}},
-          {"pipe", PipeJson(session.pipe)},
-          {"acceptance", AcceptanceJson(session.acceptance)},
-          {"calibration_images", CalibrationImagesJson(session)},
-          {"ruler_images", session.ruler_images},
-          {"counts",
-           {{"calibration_images", session.calibration_images.size()},
-            {"ruler_images", session.ruler_images.size()},
-            {"pipe_images", session.pipe_states.size()}}}};
+  Json record{{"title", session.title},
+              {"document", session.document},
+              {"sensor",
+               {{"width_px", session.sensor.width_px},
+                {"height_px", session.sensor.height_px},
+                {"pixel_pitch_um", session.sensor.pixel_pitch_um}}},
+              {"lens",
+               {{"magnification", session.lens_magnification},
+                {"depth_of_field_mm", session.depth_of_field_mm}}},
+              {"views", ViewsJson(session)},
+              {"stage",
+               {{"axis_in_array", ArrayOf(session.stage_axis_in_array)},
+                {"sigma_mm", session.stage_sigma_mm}}},
+              {"target", TargetJson(session.target)},
+              {"ruler",
+               {{"length_mm", session.ruler.length_mm},
+                {"sigma_length_um", session.ruler.sigma_length_um}}},
+              {"pipe", PipeJson(session.pipe)},
+              {"acceptance", AcceptanceJson(session.acceptance)},
+              {"calibration_images", CalibrationImagesJson(session)},
+              {"ruler_images", session.ruler_images},
+              {"counts",
+               {{"calibration_images", session.calibration_images.size()},
+                {"ruler_images", session.ruler_images.size()},
+                {"pipe_images", session.pipe_states.size()}}}};
+  if (session.camera) record["camera"] = CameraJson(*session.camera);
+  return record;
 }
 
 Session SessionOfRecord(const Json& record) {
@@ -197,6 +227,7 @@ Session SessionOfRecord(const Json& record) {
                     sensor.at("pixel_pitch_um").get<double>()};
   session.lens_magnification = record.at("lens").at("magnification").get<double>();
   session.depth_of_field_mm = record.at("lens").at("depth_of_field_mm").get<double>();
+  if (record.contains("camera")) session.camera = CameraOf(record.at("camera"));
   for (const Json& view : record.at("views")) session.views.push_back(ViewOf(view));
   session.stage_axis_in_array = VectorOf(record.at("stage").at("axis_in_array"));
   session.stage_sigma_mm = record.at("stage").at("sigma_mm").get<double>();

@@ -28,9 +28,20 @@ void Require(const Status& status) {
 Json List(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 double GroupSign(int view) { return view < 2 ? -1 : 1; }
+std::string GaugeColumn(int gauge) { return "gauge_" + std::to_string(gauge + 1) + "_microstrain"; }
 const char* ViewName(int view) {
   static constexpr const char* kNames[] = {"A1", "A2", "B1", "B2"};
   return kNames[view];
+}
+
+Json Gauges() {
+  Json gauges = Json::array();
+  for (int i = 0; i < kGauges; ++i)
+    gauges.push_back({{"column", GaugeColumn(i)},
+                      {"axial_mm", kGaugeAxial_mm[i]},
+                      {"angle_rad", kGaugeAngle_rad[i]},
+                      {"length_mm", 3.0}});
+  return gauges;
 }
 
 Json Inputs() {
@@ -44,7 +55,8 @@ Json Inputs() {
           {"sensor", {{"width_px", 2592}, {"height_px", 1944}, {"pixel_pitch_um", 2.2}}},
           {"lens", {{"magnification", 0.5}, {"depth_of_field_mm", 3.1}}},
           {"target", {{"columns", 13}, {"rows", 9}, {"square_mm", 0.3}, {"boards", boards}}},
-          {"acceptance", {{"coverage_factor", 2.0}}}};
+          {"pipe", {{"outer_diameter_mm", 8.0}, {"gauges", Gauges()}}},
+          {"acceptance", {{"ruler_mpe_um", 3.0}, {"coverage_factor", 2.0}}}};
 }
 
 // Section 13: the last mirrors send the axes to (0, -+0.5, -0.866).
@@ -63,6 +75,20 @@ Json Views() {
                      {"rms_px", 0.09 + 0.01 * i}});
   }
   return views;
+}
+
+// Some covariance of six parameters, the 1e-6 rad and mm of a good calibration: L L^T.
+Json PoseCovariance(int index) {
+  Eigen::Matrix<double, 6, 6> lower = Eigen::Matrix<double, 6, 6>::Zero();
+  for (int i = 0; i < 6; ++i)
+    for (int k = 0; k <= i; ++k) lower(i, k) = 1e-6 * std::cos(3.0 * i + 7.0 * k + index);
+  const Eigen::Matrix<double, 6, 6> covariance = lower * lower.transpose();
+  Json rows = Json::array();
+  for (int i = 0; i < 6; ++i) {
+    rows.push_back(Json::array());
+    for (int k = 0; k < 6; ++k) rows.back().push_back(covariance(i, k));
+  }
+  return rows;
 }
 
 Json Pose(int index) {
@@ -87,6 +113,7 @@ Json Pose(int index) {
           {"stage_mm", stage_mm},
           {"rotation_array_from_target", flat},
           {"origin_in_array_mm", List(origin_mm)},
+          {"covariance", PoseCovariance(index)},
           {"boards", boards}};
 }
 
@@ -98,22 +125,52 @@ Json Calibration() {
           {"views", Views()},
           {"poses", poses},
           {"rejected",
-           {{{"image", "calibration/7.png"}, {"view", "B2"}, {"reason", "9 corners missing"}}}},
+           {{{"image", "calibration/7.png"},
+             {"view", "B2"},
+             {"reason", "9 corners missing"},
+             {"corners", 108},
+             {"whole_board", true}},
+            {{"image", "calibration/8.png"},
+             {"view", "A1"},
+             {"reason", "outlier"},
+             {"corners", 1},
+             {"whole_board", false}}}},
+          {"pose_covariance_parameters",
+           {"rotation_x_rad", "rotation_y_rad", "rotation_z_rad", "origin_x_mm", "origin_y_mm",
+            "origin_z_mm"}},
           {"reprojection", {{"rms_px", 0.1034}}}};
 }
 
 Json Ruler() {
-  Json images = Json::array();
+  Json images = Json::array(), decisions = Json::array();
   for (int i = 0; i < 17; ++i) {
     const double y_mm = -0.8 + 0.1 * i, z_mm = 0.7 * std::sin(1.3 * i);
     const Eigen::Vector3d half(13.8, 0.12 * std::cos(2.0 * i), 0.1 * std::sin(4.0 * i));
     const Eigen::Vector3d middle(0.3 * std::sin(2.0 * i), y_mm, z_mm);
     images.push_back({{"image", "ruler/" + std::to_string(i) + ".png"},
                       {"length_mm", 2 * half.norm()},
+                      {"error_um", 0.25 * (i - 8)},
                       {"ends_in_array_mm", {List(middle - half), List(middle + half)}}});
+    decisions.push_back({{"image", "ruler/" + std::to_string(i) + ".png"},
+                         {"expanded_uncertainty_um", i == 3 ? 2.5 : 1.0},
+                         {"verdict", i == 4 ? Json(nullptr) : Json(i == 3 ? "doubt" : "pass")}});
   }
   images.push_back({{"image", "ruler/17.png"}, {"rejected_because", "cross not found in A2"}});
-  return {{"schema", "telestrain.ruler/1"}, {"nominal_length_mm", 27.6}, {"images", images}};
+  return {{"schema", "telestrain.ruler/1"},
+          {"nominal_length_mm", 27.6},
+          {"images", images},
+          {"acceptance", {{"images", decisions}}}};
+}
+
+// The last gauge reads under load only.
+Json GaugeReadings(double load) {
+  Json readings = Json::array();
+  for (int i = 0; i < kGauges; ++i) {
+    const bool is_read = i + 1 < kGauges || load > 0;
+    readings.push_back({{"column", GaugeColumn(i)},
+                        {"microstrain", is_read ? Json(800 * load + i) : Json(nullptr)}});
+  }
+  return readings;
 }
 
 Json Strain() {
@@ -127,21 +184,25 @@ Json Strain() {
                       {"standard_uncertainty_microstrain", 11.3},
                       {"local_a_microstrain", 824.0 * load},
                       {"local_b_microstrain", 803.0 * load},
+                      {"gauge_readings", GaugeReadings(load)},
+                      {"gauge_mean_microstrain", 810 * load},
                       {"file", "pipe_00" + std::to_string(i) + ".vtp"}});
   }
-  return {{"schema", "telestrain.strain/1"},
-          {"pipe",
-           {{"axis_point_in_array_mm", {0.0, 0.0, kPipeAxisZ_mm}},
-            {"axis_in_array", {1.0, 0.0, 0.0}},
-            {"radius_mm", kPipeRadius_mm}}},
-          {"base_length_mm", 27.702},
-          {"states", states}};
+  return {
+      {"schema", "telestrain.strain/1"},
+      {"pipe",
+       {{"axis_point_in_array_mm", {0.0, 0.0, kPipeAxisZ_mm}},
+        {"axis_in_array", {1.0, 0.0, 0.0}},
+        {"radius_mm", kPipeRadius_mm}}},
+      {"geometry", {{"angle_0_in_array", {0.0, 0.0, 1.0}}, {"angle_90_in_array", {0.0, 1.0, 0.0}}}},
+      {"base_length_mm", 27.702},
+      {"states", states}};
 }
 
 // Both patches as grids of quads.
 struct Grid {
   static constexpr int kColumns = 54, kRows = 44;
-  std::string points, displacements, strains, zeros, groups, connectivity, offsets;
+  std::string points, displacements, strains, zeros, sigmas, groups, connectivity, offsets;
   int count = 0, quads = 0;
 };
 
@@ -158,6 +219,7 @@ void AddPatch(int group, double load, Grid* grid) {
       grid->displacements += FormatShortest(1e-6 * strain * x_mm) + " 0 0\n";
       grid->strains += FormatShortest(strain) + "\n";
       grid->zeros += "0\n";
+      grid->sigmas += "0.75\n";
       grid->groups += std::to_string(group) + "\n";
       ++grid->count;
     }
@@ -189,6 +251,7 @@ std::string SurfaceFile(double load) {
   text += DataArray("Float64", "displacement_mm", 3, grid.displacements);
   text += DataArray("Float64", "axial_microstrain", 1, grid.strains);
   text += DataArray("Float64", "hoop_microstrain", 1, grid.zeros);
+  text += DataArray("Float64", "sigma_um", 1, grid.sigmas);
   text += DataArray("Int32", "group", 1, grid.groups);
   text += "</PointData>\n<Points>\n" + DataArray("Float64", "points", 3, grid.points);
   text += "</Points>\n<Polys>\n" + DataArray("Int64", "connectivity", 1, grid.connectivity);

@@ -13,13 +13,16 @@ struct FixtureContent {
 
 // Writes inputs.json, calibration.json, ruler.json, strain.json and pipe_NNN.vtp of a plausible
 // run: four views of section 13 of the measurement model (A1 A2 at negative x, B1 B2 at positive x,
-// z up to the instrument), 12 poses, 17 rulers, an 8 mm pipe under tension and bending. Same
-// content, same bytes.
+// z up to the instrument), 12 poses, 17 rulers, an 8 mm pipe under tension and bending with three
+// gauges. Same content, same bytes.
 void WriteResults(const std::filesystem::path& folder, const FixtureContent& content = {});
 
 // The fixture's pipe: strain at a point of its surface in the state with the largest load.
 inline constexpr double kPipeRadius_mm = 4.0;
 inline constexpr double kPipeAxisZ_mm = -3.6;
+inline constexpr int kGauges = 3;  // columns gauge_1_microstrain and so on, angles as recorded
+inline constexpr double kGaugeAxial_mm[] = {0.0, -12.5, 3.0};
+inline constexpr double kGaugeAngle_rad[] = {0.0, 0.5, -2.0};
 double PipeStrain_microstrain(double x_mm, double y_mm);
 
 // An empty folder of this name under the build tree's test output.

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/files.h"
+#include "visual/edited_results.h"
 #include "visual/results_fixture.h"
 #include "viz/label_layout.h"
 #include "viz/scene/color_map.h"
@@ -14,16 +14,9 @@
 namespace telestrain::viz {
 namespace {
 
+using visual_test::Damage;
 using visual_test::FreshFolder;
 using visual_test::WriteResults;
-
-// Replaces the first `from` in a file of the fixture.
-void Damage(const std::filesystem::path& path, const std::string& from, const std::string& to) {
-  std::string text = ReadFile(path).value();
-  const auto at = text.find(from);
-  ASSERT_NE(at, std::string::npos) << from;
-  ASSERT_TRUE(WriteFileAtomically(path, text.replace(at, from.size(), to)).ok());
-}
 
 TEST(Scene, ViewVolumeContainsTheCornersOfItsBoards) {
   const auto folder = FreshFolder("Contains");
@@ -80,22 +73,54 @@ struct DamageCase {
   const char *file, *from, *to, *named;
 };
 
+constexpr DamageCase kDamages[] = {
+    {"calibration.json", "{", "[{", "calibration.json"},
+    {"calibration.json", "\"magnification_px_per_mm\": 227.2727", "\"magnification_px_per_mm\": -1",
+     "lens.magnification_px_per_mm"},
+    {"calibration.json", "\"axis_in_array\"", "\"axis\"", "views[0].axis_in_array: is missing"},
+    {"calibration.json", "\"view\": \"A1\"", "\"view\": \"C9\"", "C9"},
+    {"calibration.json", "\"stage_mm\": -0.5", "\"stage_mm\": null", "poses[0].stage_mm"},
+    {"calibration.json", "\"pose\": \"p0\"", "\"pose\": 0", "poses[0].pose"},
+    {"calibration.json", "\"whole_board\"", "\"whole\"", "rejected[0].whole_board: is missing"},
+    {"calibration.json", "\"reason\": \"9 corners missing\"", "\"reason\": 9",
+     "rejected[0].reason"},
+    {"calibration.json", "\"rotation_y_rad\"", "\"origin_x_mm\"", "pose_covariance_parameters[1]"},
+    {"calibration.json", "\"covariance\": [", "\"covariance\": [[0],", "poses[0].covariance"},
+    {"inputs.json", "\"columns\": 13", "\"columns\": 1", "target.columns"},
+    {"inputs.json", "\"width_px\"", "\"width\"", "sensor.width_px: is missing"},
+    {"inputs.json", "\"ruler_mpe_um\": 3.0", "\"ruler_mpe_um\": 0", "acceptance.ruler_mpe_um"},
+    {"inputs.json", "\"axial_mm\": 0.0", "\"axial_mm\": \"0\"", "pipe.gauges[0].axial_mm"},
+    {"inputs.json", "\"length_mm\": 3.0", "\"length_mm\": -3", "pipe.gauges[0].length_mm"},
+    {"inputs.json", "\"title\"", "\"camera\": {\"position_mm\": [0, 0]},\n\"title\"",
+     "camera.position_mm"},
+    {"inputs.json", "\"square_mm\": 0.3", "\"square_mm\": null", "target.square_mm"},
+    {"ruler.json", "\"ends_in_array_mm\": [", "\"ends_in_array_mm\": [1,", "ends_in_array_mm[0]"},
+    {"strain.json", "\"radius_mm\": 4.0", "\"radius_mm\": \"4\"", "pipe.radius_mm"},
+    {"ruler.json", "\"error_um\"", "\"error\"", "images[0].error_um: is missing"},
+    {"ruler.json", "\"verdict\": \"pass\"", "\"verdict\": \"good\"",
+     "acceptance.images[0].verdict"},
+    {"ruler.json", "\"expanded_uncertainty_um\": 1.0", "\"expanded_uncertainty_um\": null",
+     "acceptance.images[0].expanded_uncertainty_um"},
+    {"ruler.json", "\"image\": \"ruler/3.png\"", "\"image\": \"ruler/33.png\"",
+     "acceptance.images: has nothing about ruler/33.png"},
+    {"strain.json", "\"image\": \"pipe/2.png\"", "\"image\": 2", "states[2].image"},
+    {"strain.json", "\"angle_0_in_array\"", "\"angle_0\"", "geometry.angle_0_in_array"},
+    {"strain.json", "\"axis_in_array\": [\n      1.0,\n      0.0,\n      0.0",
+     "\"axis_in_array\": [0, 0, 1", "geometry.angle_0_in_array: a direction across"},
+    {"strain.json", "\"microstrain\": 801.0", "\"microstrain\": \"801\"",
+     "states[1].gauge_readings[1].microstrain"},
+    {"strain.json", "pipe_000.vtp", "pipe_009.vtp", "pipe_009.vtp"},
+    {"pipe_001.vtp", "</VTKFile>", "", "pipe_001.vtp"},
+    {"pipe_002.vtp", "Name=\"displacement_mm\"", "Name=\"moved_mm\"", "displacement_mm"},
+    {"pipe_001.vtp", "Name=\"group\" NumberOfComponents=\"1\" format=\"ascii\">\n0",
+     "Name=\"group\" NumberOfComponents=\"1\" format=\"ascii\">\n2", "'group'"},
+    {"pipe_001.vtp", "Name=\"axial_microstrain\"", "Name=\"strain\"", "axial_microstrain"}};
+
 TEST(Scene, NamesTheFieldThatIsWrong) {
-  const DamageCase cases[] = {
-      {"calibration.json", "{", "[{", "calibration.json"},
-      {"calibration.json", "\"magnification_px_per_mm\": 227.2727",
-       "\"magnification_px_per_mm\": -1", "lens.magnification_px_per_mm"},
-      {"calibration.json", "\"axis_in_array\"", "\"axis\"", "views[0].axis_in_array: is missing"},
-      {"calibration.json", "\"view\": \"A1\"", "\"view\": \"C9\"", "C9"},
-      {"inputs.json", "\"square_mm\": 0.3", "\"square_mm\": null", "target.square_mm"},
-      {"ruler.json", "\"ends_in_array_mm\": [", "\"ends_in_array_mm\": [1,", "ends_in_array_mm[0]"},
-      {"strain.json", "\"radius_mm\": 4.0", "\"radius_mm\": \"4\"", "pipe.radius_mm"},
-      {"strain.json", "pipe_001.vtp", "pipe_009.vtp", "pipe_009.vtp"},
-      {"pipe_001.vtp", "</VTKFile>", "", "pipe_001.vtp"},
-      {"pipe_001.vtp", "Name=\"axial_microstrain\"", "Name=\"strain\"", "axial_microstrain"}};
-  for (const DamageCase& damage : cases) {
+  for (const DamageCase& damage : kDamages) {
     const auto folder = FreshFolder("Damage");
-    WriteResults(folder);
+    const std::string file = damage.file;
+    WriteResults(folder, {.pipe = file == "strain.json" || file.starts_with("pipe_")});
     Damage(folder / damage.file, damage.from, damage.to);
     const auto scene = SceneFromResults(folder);
     ASSERT_FALSE(scene.ok()) << damage.named;

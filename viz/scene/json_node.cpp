@@ -58,6 +58,15 @@ double JsonNode::Positive() const {
   return value;
 }
 
+bool JsonNode::Flag() const {
+  if (!json_->is_boolean()) Fail("true or false is wanted");
+  return json_->get<bool>();
+}
+
+double JsonNode::NumberOr(const std::string& key, double fallback) const {
+  return Has(key) ? At(key).Number() : fallback;
+}
+
 int JsonNode::Count() const {
   if (!json_->is_number_integer() || *json_ < 0 || *json_ > 1'000'000'000)
     Fail("a whole number from 0 to 1000000000 is wanted");

@@ -26,14 +26,18 @@ class JsonNode {
 
   double Number() const;    // finite
   double Positive() const;  // finite and > 0
-  int Count() const;        // a whole number >= 0
+  bool Flag() const;
+  double NumberOr(const std::string& key, double fallback) const;  // of a member, if it is there
+  int Count() const;                                               // a whole number >= 0
   std::string Text() const;
   Eigen::Vector3d Vector3() const;
   Eigen::Vector3d Direction() const;  // of length 1 within 1e-6, as our own files have it
   Eigen::Matrix3d Rotation() const;   // nine numbers, row by row, orthonormal within 1e-6
 
- private:
+  // For a rule of the caller's own: throws with the name, what is wanted and what was found.
   [[noreturn]] void Fail(const std::string& wanted) const;
+
+ private:
   const nlohmann::ordered_json* json_;
   std::string name_;
 };

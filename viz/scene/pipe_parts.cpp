@@ -94,6 +94,19 @@ std::vector<std::size_t> Thinned(const Surface& surface, double apart_mm) {
   return kept;
 }
 
+// Whether the surface moves away from the axis on the whole: arrows that begin at their point are
+// hidden by the pipe when it does not, arrows that end there when it does.
+bool MovesOutwards(const Pipe& pipe, const Surface& surface) {
+  double sum = 0;
+  for (std::size_t i = 0; i < surface.displacement_mm.size(); ++i) {
+    const Eigen::Vector3d& point = surface.points_in_array_mm[i];
+    const Eigen::Vector3d foot =
+        pipe.axis_point_in_array_mm + Along_mm(pipe, point) * pipe.axis_in_array;
+    sum += surface.displacement_mm[i].dot(point - foot);
+  }
+  return sum >= 0;
+}
+
 }  // namespace
 
 std::array<double, 2> SpanOf(const Pipe& pipe) {
@@ -186,12 +199,14 @@ std::vector<Part> DisplacementParts(const Scene& scene, std::size_t state, doubl
   part.lit = true;
   if (surface.displacement_mm.empty()) return {};
   constexpr double kApart = 0.22, kThickness = 0.016;  // shares of the pipe's radius
+  const bool outwards = MovesOutwards(*scene.pipe, surface);
   for (const std::size_t i : Thinned(surface, kApart * scene.pipe->radius_mm)) {
+    const Eigen::Vector3d drawn = factor * surface.displacement_mm[i];
     // The reference state's own displacement is rounding.
     if (surface.displacement_mm[i].norm() < 1e-6) continue;
-    const Eigen::Vector3d& tip = surface.points_in_array_mm[i];
-    part.mesh.Append(Arrow({tip - factor * surface.displacement_mm[i], tip},
-                           kThickness * scene.pipe->radius_mm));
+    const Eigen::Vector3d& point = surface.points_in_array_mm[i];
+    const Segment arrow = outwards ? Segment{point, point + drawn} : Segment{point - drawn, point};
+    part.mesh.Append(Arrow(arrow, kThickness * scene.pipe->radius_mm));
   }
   if (part.mesh.faces.empty()) return {};
   part.facts = {{"state", StateName(scene, state)},
@@ -206,9 +221,11 @@ std::vector<Part> GaugeParts(const Scene& scene) {
   const Pipe& pipe = *scene.pipe;
   for (std::size_t i = 0; i < pipe.gauges.size(); ++i) {
     const Gauge& gauge = pipe.gauges[i];
-    const Eigen::Vector3d along = 0.5 * gauge.length_mm * pipe.axis_in_array;
+    // A gauge whose length is not stated is drawn as a small plate.
+    const double length_mm = gauge.length_mm > 0 ? gauge.length_mm : 0.3 * pipe.radius_mm;
+    const Eigen::Vector3d along = 0.5 * length_mm * pipe.axis_in_array;
     const Eigen::Vector3d across =
-        0.25 * gauge.length_mm * gauge.outward_in_array.cross(pipe.axis_in_array).normalized();
+        0.25 * length_mm * gauge.outward_in_array.cross(pipe.axis_in_array).normalized();
     const Eigen::Vector3d middle =
         gauge.center_in_array_mm + 0.01 * pipe.radius_mm * gauge.outward_in_array;
     const Rectangle plate{middle - along - across, middle + along - across, middle + along + across,
@@ -220,8 +237,9 @@ std::vector<Part> GaugeParts(const Scene& scene) {
     part.mesh.Append(Lines(EdgesOf(plate)));
     part.color = kGaugeColor;
     part.opacity = 0.9;
-    part.facts = {{"strain gauge", gauge.name},
-                  {"length", FormatFixed(gauge.length_mm, 2) + " mm"}};
+    part.facts = {{"strain gauge", gauge.name}};
+    if (gauge.length_mm > 0)
+      part.facts.push_back({"length", FormatFixed(gauge.length_mm, 2) + " mm"});
     for (std::size_t k = 0; k < pipe.states.size(); ++k)
       if (const auto& read = pipe.states[k].gauge_microstrain; i < read.size() && read[i])
         part.facts.push_back({StateName(scene, k), NumberText(*read[i], 1) + " \u00b5\u03b5"});

@@ -9,7 +9,7 @@
 namespace telestrain::viz {
 namespace {
 
-constexpr double kSquareOpacity = 0.16;  // two dozen boards lie behind each other
+constexpr double kSquareOpacity = 0.06;  // two dozen boards lie behind each other
 constexpr double kEllipsoidOpacity = 0.5;
 
 // The dark squares of a board whose first square is dark, from its outline and square size.
@@ -89,8 +89,8 @@ double UncertaintyFactor(const Scene& scene) {
   double largest_mm = 0, side_mm = 0;
   for (const Board& board : scene.boards) {
     side_mm = std::max(side_mm, board.square_mm);
-    for (const double length_mm : HalfAxes_mm(board.cov_center_in_array_mm2).colwise().norm())
-      largest_mm = std::max(largest_mm, length_mm);
+    const Eigen::Matrix3d half_axes_mm = HalfAxes_mm(board.cov_center_in_array_mm2);
+    largest_mm = std::max(largest_mm, half_axes_mm.colwise().norm().maxCoeff());
   }
   return largest_mm > 0 && side_mm > 0 ? RoundDown(side_mm / largest_mm) : 0;
 }

@@ -2,9 +2,11 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "session/session.h"
+#include "session/session_record.h"
 #include "tests/unit/session/sample_folder.h"
 
 namespace telestrain {
@@ -133,6 +135,35 @@ TEST(MirrorViewTest, RoundTripIsExact) {
       EXPECT_EQ(first.views[i].mirrors[m].normal, second.views[i].mirrors[m].normal);
     }
   }
+}
+
+TEST(MirrorViewTest, ARecordKeepsCameraAndMirrors) {
+  const Session session = ReadOrFail(MirrorFolder("record"));
+  const nlohmann::ordered_json record = SessionRecord(session);
+  const Session again = SessionOfRecord(record);
+  ASSERT_TRUE(again.camera.has_value());
+  EXPECT_EQ(SessionRecord(again).at("camera"), record.at("camera"));
+  EXPECT_EQ(again.camera->position_mm, Eigen::Vector3d(0, 0, 100));
+  EXPECT_EQ(again.camera->axis, session.camera->axis);
+  EXPECT_EQ(again.camera->image_x, session.camera->image_x);
+  EXPECT_EQ(again.camera->image_y, session.camera->image_y);
+  for (std::size_t i = 0; i < 2; ++i) {
+    ASSERT_EQ(again.views[i].mirrors.size(), 3u);
+    for (std::size_t m = 0; m < 3; ++m) {
+      EXPECT_EQ(again.views[i].mirrors[m].point_mm, session.views[i].mirrors[m].point_mm);
+      EXPECT_EQ(again.views[i].mirrors[m].normal, session.views[i].mirrors[m].normal);
+    }
+  }
+}
+
+TEST(MirrorViewTest, ARecordWithoutMirrorsReads) {
+  const Session session = ReadOrFail(SampleFolder("record_without_mirrors"));
+  const nlohmann::ordered_json record = SessionRecord(session);
+  EXPECT_FALSE(record.contains("camera"));
+  EXPECT_FALSE(record.at("views").at(0).contains("mirrors"));
+  const Session again = SessionOfRecord(record);
+  EXPECT_FALSE(again.camera.has_value());
+  EXPECT_TRUE(again.views[0].mirrors.empty());
 }
 
 struct Disagreement {
