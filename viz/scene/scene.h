@@ -61,7 +61,7 @@ struct RulerPosition {
   std::string image;
   std::array<Eigen::Vector3d, 2> ends_in_array_mm;
   double error_um = 0, expanded_uncertainty_um = 0;
-  std::string verdict;  // "pass", "fail", "undecided" or empty
+  std::string verdict;  // "pass", "doubt", "fail", "undecided" or empty
 };
 
 // A measured quantity with a value at every point.
@@ -79,7 +79,7 @@ struct PointValues {
 struct Surface {
   std::vector<Eigen::Vector3d> points_in_array_mm;
   std::vector<Eigen::Vector3d> displacement_mm;  // from the reference state, array frame
-  std::vector<double> sigma_um;                  // standard uncertainty of a point
+  std::vector<double> sigma_um;                  // of a point along the pipe; NaN or empty: none
   std::vector<PointValues> values;               // the first is the axial strain
   std::vector<int> group;                        // per point: index into Scene::Groups()
   std::vector<std::array<int, 4>> quads;
