@@ -9,25 +9,21 @@
 #include <vtkNew.h>
 #include <vtkProperty2D.h>
 #include <vtkRenderer.h>
+#include <vtkStdString.h>
 #include <vtkTextActor.h>
 #include <vtkTextProperty.h>
 #include <vtkTextRenderer.h>
-#include <vtkUnsignedCharArray.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "viz/image_data.h"
-#include "viz/label_layout.h"
 #include "viz/offscreen_window.h"
+#include "viz/window_keeper.h"
 
 namespace telestrain::viz {
 namespace {
-
-constexpr double kPaperWidth_mm = 170;  // the report's text width
-constexpr double kInch_mm = 25.4;
 
 void AimCamera(const ParallelCamera& camera, vtkCamera* vtk_camera) {
   const Eigen::Vector3d& focal = camera.focal_in_array_mm;
@@ -54,29 +50,25 @@ Eigen::Matrix<double, 2, 4> DisplayFromArray(vtkCamera* camera, const PixelBox& 
   return display;
 }
 
-// 1 where the picture is not white, rows from the bottom.
-std::vector<std::uint8_t> TakenPixels(const RgbImage& image) {
-  std::vector<std::uint8_t> taken(image.rgb.size() / 3);
-  const auto width = static_cast<std::size_t>(image.width_px);
-  const auto height = static_cast<std::size_t>(image.height_px);
-  constexpr int kWhite = 3 * 252;  // fainter than this nobody sees
-  for (std::size_t y = 0; y < height; ++y)
-    for (std::size_t x = 0; x < width; ++x) {
-      const std::uint8_t* rgb = &image.rgb[3 * ((height - 1 - y) * width + x)];
-      taken[y * width + x] = rgb[0] + rgb[1] + rgb[2] < kWhite ? 1 : 0;
-    }
-  return taken;
-}
-
 }  // namespace
 
 Canvas::Canvas(const RenderOptions& options)
     : options_(options),
-      dots_per_inch_(static_cast<int>(std::lround(options.width_px * kInch_mm / kPaperWidth_mm))),
+      dots_per_inch_(options.Dpi()),
+      paper_(vtkSmartPointer<vtkRenderer>::New()),
       flat_(vtkSmartPointer<vtkRenderer>::New()),
-      overlay_(std::make_unique<Overlay>()) {}
+      label_layer_(vtkSmartPointer<vtkRenderer>::New()),
+      overlay_(std::make_unique<Overlay>()),
+      leaders_(std::make_unique<Overlay>()) {}
 
-Canvas::~Canvas() = default;
+// The window may serve the next canvas, in another thread.
+Canvas::~Canvas() {
+  if (!window_) return;
+  for (const PanelState& state : panels_) window_->RemoveRenderer(state.renderer);
+  for (vtkRenderer* renderer : {paper_.Get(), flat_.Get(), label_layer_.Get()})
+    window_->RemoveRenderer(renderer);
+  window_->Release();
+}
 
 Result<std::unique_ptr<Canvas>> Canvas::Create(const RenderOptions& options) {
   std::unique_ptr<Canvas> canvas(new Canvas(options));
@@ -86,9 +78,7 @@ Result<std::unique_ptr<Canvas>> Canvas::Create(const RenderOptions& options) {
 
 Status Canvas::Open() {
   TELESTRAIN_ASSIGN_OR_RETURN(fonts_, FindFontFiles());
-  OffscreenWindow::RegisterFactory();
-  window_ = vtkSmartPointer<OffscreenWindow>::New();
-  TELESTRAIN_RETURN_IF_ERROR(window_->Open());
+  TELESTRAIN_ASSIGN_OR_RETURN(window_, TakeWindow(options_.backend));
   window_->SetSize(options_.width_px, options_.height_px);
   window_->SetDPI(dots_per_inch_);
   window_->SetMultiSamples(0);  // multisampling makes depth-peeled actors vanish
@@ -97,12 +87,14 @@ Status Canvas::Open() {
   vtkTextRenderer::GetInstance()->SetDefaultBackend(vtkTextRenderer::FreeType);
   // Lines that lie in a surface win over it.
   vtkMapper::SetResolveCoincidentTopologyToPolygonOffset();
-  vtkNew<vtkRenderer> paper;
-  paper->SetBackground(1, 1, 1);
-  window_->AddRenderer(paper);
-  flat_->SetLayer(1);
+  paper_->SetBackground(1, 1, 1);
+  window_->AddRenderer(paper_);
   flat_->AddActor2D(overlay_->Actor());
-  window_->AddRenderer(flat_);
+  label_layer_->AddActor2D(leaders_->Actor());
+  for (vtkRenderer* renderer : {flat_.Get(), label_layer_.Get()}) {
+    renderer->SetLayer(1);
+    window_->AddRenderer(renderer);
+  }
   return {};
 }
 
@@ -110,7 +102,7 @@ vtkRenderer* Canvas::AddPanel(const std::string& name, const PixelBox& wanted,
                               const ParallelCamera& camera) {
   const PixelBox box{std::round(wanted.left), std::round(wanted.bottom), std::round(wanted.width),
                      std::round(wanted.height)};
-  vtkNew<vtkRenderer> renderer;
+  auto renderer = vtkSmartPointer<vtkRenderer>::New();
   renderer->SetViewport(box.left / Width(), box.bottom / Height(), box.Right() / Width(),
                         box.Top() / Height());
   renderer->SetBackground(1, 1, 1);
@@ -120,7 +112,7 @@ vtkRenderer* Canvas::AddPanel(const std::string& name, const PixelBox& wanted,
   renderer->UseFXAAOn();
   AimCamera(camera, renderer->GetActiveCamera());
   window_->AddRenderer(renderer);
-  panels_.push_back({{name, DisplayFromArray(renderer->GetActiveCamera(), box)}, box});
+  panels_.push_back({{name, DisplayFromArray(renderer->GetActiveCamera(), box)}, box, renderer});
   return renderer;
 }
 
@@ -172,6 +164,11 @@ Eigen::Vector2d Canvas::TextSize(const std::string& text, const TextStyle& style
 }
 
 void Canvas::AddText(const std::string& text, const Eigen::Vector2d& at, const TextStyle& style) {
+  AddText(text, at, style, flat_);
+}
+
+void Canvas::AddText(const std::string& text, const Eigen::Vector2d& at, const TextStyle& style,
+                     vtkRenderer* layer) {
   vtkNew<vtkTextActor> actor;
   actor->SetInput(text.c_str());
   actor->GetTextProperty()->ShallowCopy(PropertyOf(style));
@@ -179,84 +176,9 @@ void Canvas::AddText(const std::string& text, const Eigen::Vector2d& at, const T
   actor->GetPositionCoordinate()->SetCoordinateSystemToViewport();
   const double left = std::round(at.x()), bottom = std::round(at.y());
   actor->SetPosition(left, bottom);
-  flat_->AddActor2D(actor);
+  layer->AddActor2D(actor);
   const Eigen::Vector2d size = TextSize(text, style);
   texts_.push_back({text, style.size_pt, {left, bottom, size.x(), size.y()}});
-}
-
-void Canvas::AddLeader(const Eigen::Vector2d& anchor_px, const PixelBox& text) {
-  const double gap_px = Px(1.5);
-  const PixelBox near = text.Grown(gap_px);
-  const Eigen::Vector2d end(std::clamp(anchor_px.x(), near.left, near.Right()),
-                            std::clamp(anchor_px.y(), near.bottom, near.Top()));
-  if ((end - anchor_px).norm() < Px(3)) return;
-  overlay_->AddLine(anchor_px, end, {0.35, 0.38, 0.42}, Px(0.5));
-}
-
-void Canvas::AddLabel(const std::string& panel, const Label& label) {
-  labels_.emplace_back(panel, label);
-}
-
-Status Canvas::PlaceLabels(const RgbImage& image) {
-  const Occupancy occupancy(image.width_px, image.height_px, TakenPixels(image));
-  std::vector<PixelBox> placed;
-  for (const auto& [panel, label] : labels_) {
-    LabelRequest request;
-    request.anchor_px = DisplayOf(panel, label.anchor_in_array_mm);
-    request.size_px = TextSize(label.text, label.style);
-    request.preferred_rad = label.preferred_deg * std::numbers::pi / 180;
-    request.clearance_px = Px(1.5);
-    request.leader = label.leader;
-    request.straight_px = (label.leader ? 3.0 : 2.0) * request.size_px.y();
-    const auto box = PlaceLabel(request, Find(panel).box, occupancy, placed);
-    if (!box)
-      return OutputFailed("pictures: no room for the label '" + label.text +
-                          "'; render a larger picture");
-    placed.push_back(box->Grown(request.clearance_px));
-    AddText(label.text, {box->left, box->bottom}, label.style);
-    if (!label.leader) continue;
-    AddLeader(request.anchor_px, *box);
-    for (const PixelBox& part : LeaderBoxes(request.anchor_px, *box, request.clearance_px))
-      placed.push_back(part);
-  }
-  labels_.clear();
-  return {};
-}
-
-Result<RgbImage> Canvas::Grab() {
-  window_->Render();
-  RgbImage image{options_.width_px, options_.height_px, dots_per_inch_, {}};
-  vtkNew<vtkUnsignedCharArray> pixels;
-  window_->GetPixelData(0, 0, image.width_px - 1, image.height_px - 1, 0, pixels, 0);
-  if (const std::string problem = messages_.FirstError(); !problem.empty())
-    return OutputFailed("pictures: rendering failed: " + problem);
-  const std::size_t row_bytes = 3 * static_cast<std::size_t>(image.width_px);
-  const std::size_t bytes = row_bytes * static_cast<std::size_t>(image.height_px);
-  if (static_cast<std::size_t>(pixels->GetNumberOfValues()) != bytes)
-    return OutputFailed("pictures: rendering gave no pixels; is there enough memory?");
-  image.rgb.resize(bytes);
-  for (std::size_t y = 0; y < static_cast<std::size_t>(image.height_px); ++y)
-    std::copy_n(pixels->GetPointer(0) + bytes - (y + 1) * row_bytes, row_bytes,
-                image.rgb.begin() + static_cast<std::ptrdiff_t>(y * row_bytes));
-  return image;
-}
-
-Result<Picture> Canvas::Finish() {
-  Picture picture;
-  if (!labels_.empty()) {
-    TELESTRAIN_ASSIGN_OR_RETURN(const RgbImage without_labels, Grab());
-    TELESTRAIN_RETURN_IF_ERROR(PlaceLabels(without_labels));
-  }
-  TELESTRAIN_ASSIGN_OR_RETURN(picture.image, Grab());
-  for (const PanelState& state : panels_) {
-    Panel panel = state.panel;
-    // From VTK's display (edges between pixels, y up) to pixels (centres, y down).
-    panel.pixel_from_array.row(1) *= -1;
-    panel.pixel_from_array.col(3) += Eigen::Vector2d(-0.5, Height() - 0.5);
-    picture.panels.push_back(panel);
-  }
-  picture.texts = texts_;
-  return picture;
 }
 
 }  // namespace telestrain::viz

@@ -60,20 +60,26 @@ class Canvas {
   // finished.
   void AddLabel(const std::string& panel, const Label& label);
 
-  // Renders once to see where labels have room and once with them. Fails (kOutputFailed) with what
-  // VTK reported, or when a label finds no room: without it the picture is not understood.
+  // Renders the scene, sees where labels have room and draws them on top; once more on black paper
+  // for a transparent picture. Fails (kOutputFailed) with what VTK reported, or when a label finds
+  // no room: without it the picture is not understood.
   Result<Picture> Finish();
 
  private:
   struct PanelState {
     Panel panel;
     PixelBox box;
+    vtkSmartPointer<vtkRenderer> renderer;
   };
   explicit Canvas(const RenderOptions& options);
   Status Open();
   const PanelState& Find(const std::string& panel) const;
   vtkSmartPointer<vtkTextProperty> PropertyOf(const TextStyle& style) const;
+  void AddText(const std::string& text, const Eigen::Vector2d& at, const TextStyle& style,
+               vtkRenderer* layer);
   Result<RgbImage> Grab();
+  Result<RgbImage> GrabWithLabels();
+  Result<RgbImage> GrabOnBlack();
   Status PlaceLabels(const RgbImage& image);
   void AddLeader(const Eigen::Vector2d& anchor_px, const PixelBox& text);
 
@@ -82,8 +88,10 @@ class Canvas {
   int dots_per_inch_ = 300;
   FontFiles fonts_;
   vtkSmartPointer<OffscreenWindow> window_;
-  vtkSmartPointer<vtkRenderer> flat_;  // over everything
-  std::unique_ptr<Overlay> overlay_;
+  vtkSmartPointer<vtkRenderer> paper_;        // below everything
+  vtkSmartPointer<vtkRenderer> flat_;         // over everything
+  vtkSmartPointer<vtkRenderer> label_layer_;  // over that
+  std::unique_ptr<Overlay> overlay_, leaders_;
   std::vector<PanelState> panels_;
   std::vector<std::pair<std::string, Label>> labels_;  // panel and label
   std::vector<PlacedText> texts_;

@@ -3,38 +3,13 @@
 
 #include "viz/legend.h"
 #include "viz/pictures.h"
+#include "viz/scaled_image.h"
 #include "viz/scene/scene_colors.h"
 
 namespace telestrain::viz {
 namespace {
 
 constexpr double kMargin_pt = 6, kCaption_pt = 11, kGap_pt = 5;
-
-// A copy of this size whose pixels are means over the pixels of `image` that they cover, in sRGB
-// values: pictures on white paper stay as light as they are.
-RgbImage Shrunk(const RgbImage& image, int width_px, int height_px) {
-  RgbImage small{width_px, height_px, image.dots_per_inch, {}};
-  small.rgb.resize(3 * static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px));
-  for (int y = 0; y < height_px; ++y) {
-    const int top = y * image.height_px / height_px;
-    const int bottom = std::max(top + 1, (y + 1) * image.height_px / height_px);
-    for (int x = 0; x < width_px; ++x) {
-      const int left = x * image.width_px / width_px;
-      const int right = std::max(left + 1, (x + 1) * image.width_px / width_px);
-      const int count = (bottom - top) * (right - left);
-      for (int channel = 0; channel < 3; ++channel) {
-        int sum = 0;
-        for (int row = top; row < bottom; ++row)
-          for (int column = left; column < right; ++column)
-            sum +=
-                image.rgb[static_cast<std::size_t>(3 * (row * image.width_px + column) + channel)];
-        small.rgb[static_cast<std::size_t>(3 * (y * width_px + x) + channel)] =
-            static_cast<std::uint8_t>((sum + count / 2) / count);
-      }
-    }
-  }
-  return small;
-}
 
 // Columns and rows of equal cells that show the pictures largest.
 struct Grid {
@@ -75,7 +50,7 @@ Result<Picture> DrawContactSheet(const std::vector<NamedImage>& images, const st
   const double cell_width = (box.width + gap) / grid.columns,
                cell_height = (box.height + gap) / grid.rows;
   for (std::size_t i = 0; i < images.size(); ++i) {
-    const RgbImage small = Shrunk(
+    const RgbImage small = Reduced(
         *images[i].image, std::max(1, static_cast<int>(grid.scale * images[i].image->width_px)),
         std::max(1, static_cast<int>(grid.scale * images[i].image->height_px)));
     const double left =

@@ -6,18 +6,16 @@
 #include <vtkVersion.h>
 #include <vtk_glew.h>
 
+#include <array>
 #include <cstring>
 #include <mutex>
 #include <stdexcept>
 #include <string>
 
-#include "viz/osmesa_context.h"
+#include "viz/gl_context.h"
 
 namespace telestrain::viz {
 namespace {
-
-// Mesa's llvmpipe takes pictures up to this side; beyond it they turn black without an error.
-constexpr int kLargestSide_px = 16384;
 
 vtkObject* MakeWindow() { return OffscreenWindow::New(); }
 vtkObject* MakeInteractor() { return vtkGenericRenderWindowInteractor::New(); }
@@ -44,6 +42,30 @@ bool IsUsable(GLenum glew_code) {
          glew_code == GLEW_ERROR_GLX_VERSION_11_ONLY;
 }
 
+// Draws one colour into a small buffer with the gl* names that VTK uses and reads it back. Fails
+// when they do not reach the context that is current.
+Status CheckGlReachesContext() {
+  constexpr std::array<unsigned char, 4> kWanted{51, 102, 153, 255};
+  GLuint buffer = 0, framebuffer = 0;
+  glGenRenderbuffers(1, &buffer);
+  glBindRenderbuffer(GL_RENDERBUFFER, buffer);
+  glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, 1, 1);
+  glGenFramebuffers(1, &framebuffer);
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, buffer);
+  glClearColor(0.2F, 0.4F, 0.6F, 1);
+  glClear(GL_COLOR_BUFFER_BIT);
+  std::array<unsigned char, 4> found{};
+  glReadPixels(0, 0, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, found.data());
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  glDeleteFramebuffers(1, &framebuffer);
+  glDeleteRenderbuffers(1, &buffer);
+  if (found == kWanted && glGetError() == GL_NO_ERROR) return {};
+  return OutputFailed(
+      "off-screen rendering: OpenGL calls do not reach the context; libOSMesa and libEGL_mesa must "
+      "come from the same Mesa (Debian packages libosmesa6, libegl-mesa0)");
+}
+
 }  // namespace
 
 vtkStandardNewMacro(OffscreenWindow);
@@ -52,7 +74,7 @@ OffscreenWindow::OffscreenWindow() {
   SetShowWindow(false);
   SetUseOffScreenBuffers(true);
   SetFrameBlitModeToNoBlit();  // there is no default framebuffer to copy to
-  SetScreenSize(kLargestSide_px, kLargestSide_px);
+  SetScreenSize(kMostSide_px, kMostSide_px);
 }
 
 OffscreenWindow::~OffscreenWindow() { OffscreenWindow::Finalize(); }
@@ -68,9 +90,9 @@ void OffscreenWindow::RegisterFactory() {
   });
 }
 
-Status OffscreenWindow::Open() {
+Status OffscreenWindow::Open(GlBackend backend) {
   if (Initialized) return {};
-  TELESTRAIN_ASSIGN_OR_RETURN(context_, OsMesaContext::Create());
+  TELESTRAIN_ASSIGN_OR_RETURN(context_, MakeGlContext(backend));
   OpenGLInit();
   if (!Initialized)
     return OutputFailed("off-screen rendering: OpenGL 3.2 or newer could not be initialised");
@@ -79,11 +101,17 @@ Status OffscreenWindow::Open() {
     return OutputFailed("off-screen rendering: Mesa's llvmpipe is wanted, found '" +
                         std::string(renderer != nullptr ? renderer : "nothing") +
                         "'; unset GALLIUM_DRIVER");
-  return {};
+  return CheckGlReachesContext();
 }
 
+void OffscreenWindow::Release() {
+  if (IsCurrent()) context_->Release();
+}
+
+// VTK's way in, for windows that it made itself through the factory.
 void OffscreenWindow::Initialize() {
-  if (const Status opened = Open(); !opened) throw std::runtime_error(opened.error().message);
+  if (const Status opened = Open(GlBackend::kOsMesa); !opened)
+    throw std::runtime_error(opened.error().message);
 }
 
 void OffscreenWindow::OpenGLInit() { vtkOpenGLRenderWindow::OpenGLInit(); }

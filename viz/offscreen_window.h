@@ -5,14 +5,16 @@
 #include <memory>
 
 #include "base/result.h"
+#include "viz/render.h"
 
 namespace telestrain::viz {
 
-class OsMesaContext;
+class GlContext;
 
 // A VTK render window without a screen, on Mesa's software rasteriser. Call Open() before anything
 // else; VTK's own way into Initialize() cannot report a failure and throws std::runtime_error.
-// Not thread-safe, and FreeType forbids two windows at work at once: hold a VtkMessages.
+// Not thread-safe, and FreeType forbids two windows at work at once: hold a VtkMessages. A thread
+// that is done with it calls Release(), so that another one may go on.
 class OffscreenWindow : public vtkGenericOpenGLRenderWindow {
  public:
   static OffscreenWindow* New();
@@ -25,7 +27,9 @@ class OffscreenWindow : public vtkGenericOpenGLRenderWindow {
   static void RegisterFactory();
 
   // Makes the context and loads OpenGL; fails (kOutputFailed) with the reason.
-  Status Open();
+  Status Open(GlBackend backend);
+  // Leaves the context without a thread.
+  void Release();
 
   void Initialize() override;
   void Finalize() override;
@@ -48,7 +52,7 @@ class OffscreenWindow : public vtkGenericOpenGLRenderWindow {
   ~OffscreenWindow() override;
 
  private:
-  std::unique_ptr<OsMesaContext> context_;
+  std::unique_ptr<GlContext> context_;
 };
 
 }  // namespace telestrain::viz

@@ -57,6 +57,10 @@ void Overlay::AddFrame(const PixelBox& box, const Rgb& color, double width_px) {
   AddBox({box.Right() - w, box.bottom, w, box.height}, color);
 }
 
+void Overlay::AddTriangle(const std::array<Eigen::Vector2d, 3>& corners, const Rgb& color) {
+  AddQuad({corners[0], corners[1], corners[2], corners[2]}, color, {1, 1, 1, 1});
+}
+
 void Overlay::AddLine(const Eigen::Vector2d& from, const Eigen::Vector2d& to, const Rgb& color,
                       double width_px) {
   const Eigen::Vector2d along = to - from;

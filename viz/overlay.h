@@ -24,6 +24,7 @@ class Overlay {
 
   void AddBox(const PixelBox& box, const Rgb& fill, double opacity = 1);
   void AddFrame(const PixelBox& box, const Rgb& color, double width_px);
+  void AddTriangle(const std::array<Eigen::Vector2d, 3>& corners, const Rgb& color);
   // A straight stroke with soft edges.
   void AddLine(const Eigen::Vector2d& from, const Eigen::Vector2d& to, const Rgb& color,
                double width_px);

@@ -20,6 +20,8 @@ struct RgbImage {
   int width_px = 0, height_px = 0;
   int dots_per_inch = 300;
   std::vector<std::uint8_t> rgb;
+  // One byte per pixel, 0 where the paper shows; empty: opaque. `rgb` is not multiplied by it.
+  std::vector<std::uint8_t> alpha{};
 };
 
 // A part of a picture with a camera of its own, as it was used.
@@ -47,7 +49,8 @@ struct Picture {
 
 inline const std::string kAxialStrain = "axial_microstrain";
 
-// What of a pipe's states a picture shows.
+// What of a pipe's states a picture shows: RenderOptions' words looked up in a scene (ChoicesFor in
+// picture_set.h).
 struct PictureChoices {
   std::optional<std::size_t> state;  // index; none: the one with the largest strain
   std::string quantity = kAxialStrain;
@@ -55,7 +58,8 @@ struct PictureChoices {
 };
 
 // The standard pictures. Fail (kOutputFailed) when rendering does. The same scene gives the same
-// pixels on one kind of CPU. One to two seconds of computing each at 300 dpi.
+// pixels on one kind of CPU. A second of computing each at 300 dpi. `options` says how large and on
+// what paper; its words for view, state, quantity and range are not read here.
 Result<Picture> DrawArray(const Scene& scene, const RenderOptions& options);
 // Across and along the pipe; from the instrument. Distance of the fields, stereo angle.
 Result<Picture> DrawSide(const Scene& scene, const RenderOptions& options);

@@ -139,18 +139,6 @@ Status AddKey(Canvas* canvas, const Shown& shown, const PixelBox& box) {
                     bottom_height - canvas->Px(6)});
 }
 
-// Round ends for a range that the user gave.
-ColorScale ScaleOfRange(const std::array<double, 2>& range, const Surface& surface,
-                        const std::string& quantity) {
-  ColorScale scale = ScaleFor({range[0], range[1]}, 0);
-  scale.low = range[0];
-  scale.high = range[1];
-  std::erase_if(scale.ticks, [&](double tick) { return tick < range[0] || tick > range[1]; });
-  for (const double value : surface.Find(quantity)->values)
-    scale.clipped = scale.clipped || value < range[0] || value > range[1];
-  return scale;
-}
-
 std::string FactsOf(const Shown& shown) {
   const bool is_largest = shown.state == shown.pipe().largest_state;
   return (is_largest ? "state with the largest strain: cycle " : "state: cycle ") +
@@ -171,7 +159,7 @@ Result<Picture> DrawPipeStrain(const Scene& scene, const RenderOptions& options,
   const PointValues* values = surface.Find(choices.quantity);
   TELESTRAIN_CHECK(values != nullptr, "no quantity " + choices.quantity);
   const Shown shown{scene, state, values->quantity,
-                    choices.range ? ScaleOfRange(*choices.range, surface, choices.quantity)
+                    choices.range ? ScaleOfRange(*choices.range, values->values)
                                   : ValueScale({&surface}, choices.quantity)};
   TELESTRAIN_ASSIGN_OR_RETURN(const auto canvas, Canvas::Create(options));
   std::string title = values->quantity.name + " of the pipe";

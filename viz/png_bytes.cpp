@@ -1,61 +1,73 @@
 #include "viz/png_bytes.h"
 
-#include <vtkImageData.h>
-#include <vtkNew.h>
-#include <vtkPNGWriter.h>
-#include <vtkUnsignedCharArray.h>
+#include <png.h>
 
 #include <cmath>
-
-#include "viz/image_data.h"
-#include "viz/vtk_messages.h"
+#include <csetjmp>
 
 namespace telestrain::viz {
 namespace {
 
-// CRC-32 of PNG (ISO/IEC 15948, annex D), bit by bit: it runs over 13 bytes.
-std::uint32_t Crc(const std::string& bytes) {
-  std::uint32_t crc = 0xffffffffU;
-  for (const char byte : bytes) {
-    crc ^= static_cast<unsigned char>(byte);
-    for (int bit = 0; bit < 8; ++bit) crc = (crc & 1U) != 0 ? 0xedb88320U ^ (crc >> 1) : crc >> 1;
+// Longer codes at level 6 save 4 % and take twice the time on these flat pictures.
+constexpr int kCompressionLevel = 4;
+
+void Append(png_structp png, png_bytep bytes, png_size_t count) {
+  static_cast<std::string*>(png_get_io_ptr(png))->append(reinterpret_cast<char*>(bytes), count);
+}
+
+void KeepMessage(png_structp png, png_const_charp message) {
+  *static_cast<std::string*>(png_get_error_ptr(png)) = message;
+  png_longjmp(png, 1);
+}
+
+void Ignore(png_structp, png_const_charp) {}
+
+// Red, green, blue and, when the picture has it, alpha: one byte each, row by row.
+std::vector<std::uint8_t> Interleaved(const RgbImage& image) {
+  if (image.alpha.empty()) return image.rgb;
+  std::vector<std::uint8_t> rgba;
+  rgba.reserve(4 * image.alpha.size());
+  for (std::size_t i = 0; i < image.alpha.size(); ++i) {
+    rgba.insert(rgba.end(), &image.rgb[3 * i], &image.rgb[3 * i] + 3);
+    rgba.push_back(image.alpha[i]);
   }
-  return ~crc;
+  return rgba;
 }
 
-std::string BigEndian(std::uint32_t value) {
-  std::string bytes;
-  for (int shift = 24; shift >= 0; shift -= 8) bytes.push_back(static_cast<char>(value >> shift));
-  return bytes;
-}
-
-// Pixels per metre in both directions (ISO/IEC 15948, 11.3.5.3; unit 1 is the metre).
-std::string PhysChunk(int dots_per_inch) {
-  const auto px_per_m = static_cast<std::uint32_t>(std::lround(dots_per_inch / 0.0254));
-  const std::string body = "pHYs" + BigEndian(px_per_m) + BigEndian(px_per_m) + '\x01';
-  return BigEndian(static_cast<std::uint32_t>(body.size() - 4)) + body + BigEndian(Crc(body));
+// Nothing in here has a destructor: libpng leaves it with longjmp when it fails.
+bool Write(png_structp png, png_infop info, const RgbImage& image, const std::uint8_t* pixels) {
+  if (setjmp(png_jmpbuf(png)) != 0) return false;
+  const bool with_alpha = !image.alpha.empty();
+  const auto width = static_cast<png_uint_32>(image.width_px);
+  const auto height = static_cast<png_uint_32>(image.height_px);
+  png_set_IHDR(png, info, width, height, 8, with_alpha ? PNG_COLOR_TYPE_RGBA : PNG_COLOR_TYPE_RGB,
+               PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  // Pixels per metre in both directions.
+  const auto px_per_m = static_cast<png_uint_32>(std::lround(image.dots_per_inch / 0.0254));
+  png_set_pHYs(png, info, px_per_m, px_per_m, PNG_RESOLUTION_METER);
+  png_set_compression_level(png, kCompressionLevel);
+  png_write_info(png, info);
+  const png_size_t row_bytes = (with_alpha ? 4 : 3) * static_cast<png_size_t>(width);
+  for (png_uint_32 y = 0; y < height; ++y) png_write_row(png, pixels + y * row_bytes);
+  png_write_end(png, info);
+  return true;
 }
 
 }  // namespace
 
 Result<std::string> PngBytes(const RgbImage& image) {
-  VtkMessages messages;
-  vtkNew<vtkImageData> data;
-  FillImageData(image, data);
-  vtkNew<vtkPNGWriter> writer;
-  writer->SetInputData(data);
-  writer->WriteToMemoryOn();
-  writer->SetCompressionLevel(6);
-  writer->Write();
-  const vtkUnsignedCharArray* result = writer->GetResult();
-  if (result == nullptr || result->GetNumberOfValues() == 0)
-    return OutputFailed("pictures: PNG encoding failed: " + messages.FirstError());
-  vtkUnsignedCharArray* bytes = writer->GetResult();
-  std::string png(reinterpret_cast<const char*>(bytes->GetPointer(0)),
-                  static_cast<std::size_t>(bytes->GetNumberOfValues()));
-  constexpr std::size_t kEndOfHeader = 8 + 25;  // signature and IHDR, which always comes first
-  png.insert(kEndOfHeader, PhysChunk(image.dots_per_inch));
-  return png;
+  std::string bytes, message = "out of memory";
+  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &message, KeepMessage, Ignore);
+  png_infop info = png != nullptr ? png_create_info_struct(png) : nullptr;
+  bool written = false;
+  if (info != nullptr) {
+    const std::vector<std::uint8_t> pixels = Interleaved(image);
+    png_set_write_fn(png, &bytes, Append, nullptr);
+    written = Write(png, info, image, pixels.data());
+  }
+  png_destroy_write_struct(&png, &info);
+  if (!written) return OutputFailed("pictures: PNG encoding failed: " + message);
+  return bytes;
 }
 
 }  // namespace telestrain::viz

@@ -7,8 +7,8 @@
 
 namespace telestrain::viz {
 
-// The picture as a PNG file with the pHYs chunk for its resolution. The same picture gives the same
-// bytes. Fails (kOutputFailed) when the encoder does.
+// The picture as a PNG file, RGB or RGBA, with the pHYs chunk for its resolution. The same picture
+// gives the same bytes. Thread-safe. Fails (kOutputFailed) when the encoder does.
 Result<std::string> PngBytes(const RgbImage& image);
 
 }  // namespace telestrain::viz

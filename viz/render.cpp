@@ -1,62 +1,123 @@
 #include "viz/render.h"
 
+#include <algorithm>
 #include <string>
 
 #include "base/files.h"
-#include "viz/pictures.h"
+#include "base/parallel.h"
+#include "viz/picture_set.h"
 #include "viz/png_bytes.h"
+#include "viz/scaled_image.h"
 #include "viz/scene_from_results.h"
+#include "viz/window_keeper.h"
 
 namespace telestrain {
 namespace {
 
-// Below, the texts do not fit; above, memory passes 4 GB.
-constexpr int kLeastWidth_px = 1000, kMostWidth_px = 6000;
+namespace fs = std::filesystem;
 
-Status CheckOptions(const RenderOptions& options) {
-  if (options.width_px < kLeastWidth_px || options.width_px > kMostWidth_px)
-    return BadInput("pictures: width_px from " + std::to_string(kLeastWidth_px) + " to " +
-                    std::to_string(kMostWidth_px) + " is wanted, found " +
-                    std::to_string(options.width_px));
-  if (options.height_px < options.width_px / 2 || options.height_px > options.width_px)
-    return BadInput("pictures: height_px from half the width to the width is wanted, found " +
-                    std::to_string(options.height_px) + " for a width of " +
-                    std::to_string(options.width_px));
-  return {};
-}
+// Draws the pictures one after the other and writes each while the next is being drawn.
+class Series {
+ public:
+  Series(const viz::Scene& scene, const RenderOptions& options, Console& console)
+      : scene_(scene), options_(options), console_(console) {}
 
-Status Save(const Result<viz::Picture>& picture, const std::filesystem::path& path,
-            Console& console) {
-  if (!picture) return picture.error();
-  TELESTRAIN_ASSIGN_OR_RETURN(const std::string png, viz::PngBytes(picture->image));
-  TELESTRAIN_RETURN_IF_ERROR(WriteFileAtomically(path, png));
-  console.Say("wrote " + path.string());
-  return {};
-}
+  Status Draw(const std::vector<viz::PlannedPicture>& planned, const std::vector<fs::path>& paths) {
+    for (std::size_t i = 0; i <= planned.size(); ++i) {
+      Status drawn, saved;
+      std::optional<RgbImage> next;
+      ParallelFor(2, 2, [&](int part) {
+        if (part == 0 && i < planned.size()) drawn = DrawOne(planned[i], next);
+        if (part == 1 && last_) saved = Save(paths[i - 1]);
+      });
+      TELESTRAIN_RETURN_IF_ERROR(saved);
+      TELESTRAIN_RETURN_IF_ERROR(drawn);
+      if (last_) console_.Say("wrote " + paths[i - 1].string());
+      last_ = std::move(next);
+      if (last_ && planned.size() > 1) sheet_.emplace_back(planned[i].file_name, Half(*last_));
+    }
+    return {};
+  }
 
-Status DrawAll(const viz::Scene& scene, const std::filesystem::path& folder,
-               const RenderOptions& options, Console& console) {
-  TELESTRAIN_RETURN_IF_ERROR(Save(viz::DrawArray(scene, options), folder / "array.png", console));
-  TELESTRAIN_RETURN_IF_ERROR(
-      Save(viz::DrawTargets(scene, options), folder / "targets.png", console));
-  if (scene.pipe)
-    return Save(viz::DrawPipeStrain(scene, options), folder / "pipe_strain.png", console);
-  console.Note("no strain.json: pipe_strain.png is not drawn");
-  // A picture from an earlier measurement must not stand beside results that have none.
+ private:
+  using RgbImage = viz::RgbImage;
+
+  Status DrawOne(const viz::PlannedPicture& planned, std::optional<RgbImage>& image) {
+    TELESTRAIN_ASSIGN_OR_RETURN(
+        viz::Picture picture,
+        planned.draw != nullptr ? planned.draw(scene_, options_, planned.choices) : Sheet());
+    image = std::move(picture.image);
+    return {};
+  }
+
+  Result<viz::Picture> Sheet() const {
+    std::vector<viz::NamedImage> named;
+    for (const auto& [name, half] : sheet_) named.push_back({name, &half});
+    return viz::DrawContactSheet(named, std::to_string(named.size()) + " pictures of the results",
+                                 options_);
+  }
+
+  // On the sheet none is larger, unless there is but one.
+  static RgbImage Half(const RgbImage& image) {
+    return viz::Reduced(image, (image.width_px + 1) / 2, (image.height_px + 1) / 2);
+  }
+
+  Status Save(const fs::path& path) const {
+    TELESTRAIN_ASSIGN_OR_RETURN(const std::string png, viz::PngBytes(*last_));
+    return WriteFileAtomically(path, png);
+  }
+
+  const viz::Scene& scene_;
+  const RenderOptions& options_;
+  Console& console_;
+  std::optional<RgbImage> last_;
+  std::vector<std::pair<std::string, RgbImage>> sheet_;  // file names and halves
+};
+
+// A picture from an earlier measurement must not stand beside results that have none.
+Status RemoveOthers(const fs::path& folder, const std::vector<viz::PlannedPicture>& planned) {
+  std::vector<fs::path> outdated;
   std::error_code code;
-  std::filesystem::remove(folder / "pipe_strain.png", code);
+  for (fs::directory_iterator entry(folder, code), end; !code && entry != end;
+       entry.increment(code)) {
+    const std::string name = entry->path().filename().string();
+    const bool stays =
+        !viz::IsStandardPicture(name) ||
+        std::any_of(planned.begin(), planned.end(),
+                    [&](const viz::PlannedPicture& p) { return p.file_name == name; });
+    if (!stays) outdated.push_back(entry->path());
+  }
+  for (const fs::path& path : outdated)
+    if (!fs::remove(path, code) && code)
+      return OutputFailed(path.string() + ": an old picture cannot be removed: " + code.message());
   return {};
 }
 
 }  // namespace
 
-Status RenderResults(const std::filesystem::path& results, const RenderOptions& options,
-                     Console& console) {
-  TELESTRAIN_RETURN_IF_ERROR(CheckOptions(options));
+Status CheckRender(const fs::path& results, const RenderOptions& options) {
+  TELESTRAIN_RETURN_IF_ERROR(CheckRenderOptions(options));
   TELESTRAIN_ASSIGN_OR_RETURN(const viz::Scene scene, viz::SceneFromResults(results));
-  const std::filesystem::path folder = results / "pictures";
+  const auto planned = viz::PlanPictures(scene, options);
+  return planned ? Status() : planned.error();
+}
+
+Status RenderResults(const fs::path& results, const RenderOptions& options, Console& console,
+                     const fs::path& out) {
+  TELESTRAIN_RETURN_IF_ERROR(CheckRenderOptions(options));
+  TELESTRAIN_ASSIGN_OR_RETURN(const viz::Scene scene, viz::SceneFromResults(results));
+  TELESTRAIN_ASSIGN_OR_RETURN(const auto planned, viz::PlanPictures(scene, options));
+  const fs::path folder = out.empty() ? results / "pictures" : out;
+  const viz::WindowKeeper keeper;
+  if (!options.view.empty() && folder.extension() == ".png")
+    return Series(scene, options, console).Draw(planned, {folder});
   TELESTRAIN_RETURN_IF_ERROR(EnsureFolder(folder));
-  return DrawAll(scene, folder, options, console);
+  if (options.view.empty()) TELESTRAIN_RETURN_IF_ERROR(RemoveOthers(folder, planned));
+  std::vector<fs::path> paths;
+  for (const viz::PlannedPicture& picture : planned) paths.push_back(folder / picture.file_name);
+  TELESTRAIN_RETURN_IF_ERROR(Series(scene, options, console).Draw(planned, paths));
+  if (options.view.empty() && !scene.pipe) console.Note("no strain.json: the pipe is not drawn");
+  return {};
 }
 
 }  // namespace telestrain

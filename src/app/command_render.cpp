@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 
 #include "app/command.h"
+#include "app/render_arguments.h"
 #include "app/steps.h"
 
 // telestrain render RESULTS
@@ -15,17 +16,24 @@ class RenderCommand : public Command {
   std::string Summary() const override {
     return "draw the array, the target poses and the strained pipe, without a screen";
   }
-  std::string Example() const override { return "telestrain render results"; }
+  std::string Example() const override {
+    return "telestrain render results\n"
+           "         telestrain render results --view pipe_strain --state 3 --range 0 500 --out "
+           "a.png";
+  }
   void AddOptions(CLI::App& app) override {
     app.add_option("RESULTS", results_, "results folder of the earlier steps")->required();
+    arguments_.AddTo(app);
   }
   Result<int> Run(Console& console) override {
-    TELESTRAIN_RETURN_IF_ERROR(RenderStep(results_, console));
+    TELESTRAIN_ASSIGN_OR_RETURN(const RenderOptions options, ReadOptions(arguments_));
+    TELESTRAIN_RETURN_IF_ERROR(RenderStep(results_, options, arguments_.out, console));
     return 0;
   }
 
  private:
   std::string results_;
+  RenderArguments arguments_;
 };
 
 }  // namespace

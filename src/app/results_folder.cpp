@@ -12,6 +12,7 @@
 #include "measurement/ruler_acceptance.h"
 #include "session/session_record.h"
 #include "target/image_file.h"
+#include "viz/picture_set.h"
 
 namespace telestrain {
 namespace {
@@ -29,7 +30,7 @@ const std::vector<std::string>& OutputsOf(Step step) {
       {Step::kVerify, {"ruler.csv", "ruler.json"}},
       {Step::kMeasure,
        {"strain.csv", "strain_components.csv", "strain.json", "strain_states.jsonl"}},
-      {Step::kRender, {"pictures/array.png", "pictures/targets.png", "pictures/pipe_strain.png"}},
+      {Step::kRender, {}},  // the standard pictures, whose number depends on the states
       {Step::kReport, {"results.json", "report.pdf"}}};
   return kOutputs.at(step);
 }
@@ -137,6 +138,8 @@ Status RemoveOutputsFrom(const fs::path& results, Step step) {
     for (const std::string& name : OutputsOf(later))
       TELESTRAIN_RETURN_IF_ERROR(Remove(results / name));
     if (later == Step::kMeasure) TELESTRAIN_RETURN_IF_ERROR(RemoveSurfacesFrom(results, 0));
+    if (later == Step::kRender)
+      TELESTRAIN_RETURN_IF_ERROR(RemoveNamed(results / "pictures", viz::IsStandardPicture));
   }
   return {};
 }

@@ -10,7 +10,6 @@
 #include "measurement/ruler_acceptance.h"
 #include "report/acceptance_report.h"
 #include "target/corner_import.h"
-#include "viz/render.h"
 
 namespace telestrain {
 namespace {
@@ -130,14 +129,6 @@ Status VerifyStep(const Session& session, const fs::path& results, Console& cons
   for (const RulerLength& length : lengths)
     if (!length.rejected_because.empty())
       console.Note("  not used: " + length.image + ": " + length.rejected_because);
-  return {};
-}
-
-Status RenderStep(const fs::path& results, Console& console) {
-  TELESTRAIN_RETURN_IF_ERROR(RequireConsistent(results, Step::kRender));
-  TELESTRAIN_RETURN_IF_ERROR(RemoveOutputsFrom(results, Step::kRender));
-  TELESTRAIN_RETURN_IF_ERROR(RenderResults(results, RenderOptions{}, console));
-  console.Say("render     pictures in " + (results / "pictures").string());
   return {};
 }
 

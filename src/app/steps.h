@@ -10,6 +10,7 @@
 #include "base/result.h"
 #include "calibration/calibrate.h"
 #include "session/session.h"
+#include "viz/render.h"
 
 namespace telestrain {
 
@@ -66,7 +67,12 @@ Result<MeasureChoices> ReadChoices(const MeasureArguments& arguments);
 // Goes on from the states that an earlier run of the same inputs left.
 Status MeasureStep(const Session& session, const std::filesystem::path& results,
                    const MeasureChoices& choices, Console& console);
+// The standard pictures as the report wants them.
 Status RenderStep(const std::filesystem::path& results, Console& console);
+// Other pictures; `out` empty: the results' pictures folder, where a single view replaces its own
+// file and nothing else goes but a report that shows it.
+Status RenderStep(const std::filesystem::path& results, const RenderOptions& options,
+                  const std::filesystem::path& out, Console& console);
 // Writes results.json and report.pdf, with the layout in `templates` when that is not empty. The
 // value is the exit code of the verdict.
 Result<int> ReportStep(const std::filesystem::path& results, const std::filesystem::path& templates,

@@ -16,7 +16,7 @@ namespace {
 using visual_test::FreshFolder;
 using visual_test::WriteResults;
 
-constexpr RenderOptions kSmall{1200, 740};
+const RenderOptions kSmall{1200, 740};
 
 Scene FixtureScene(const std::string& name, const visual_test::FixtureContent& content = {}) {
   const auto folder = FreshFolder(name);

@@ -16,7 +16,7 @@ using visual_test::FreshFolder;
 using visual_test::WriteResults;
 
 // Small pictures: the same drawing code in a quarter of the time.
-constexpr RenderOptions kSmall{1200, 740};
+const RenderOptions kSmall{1200, 740};
 
 Status Render(const std::filesystem::path& folder, const RenderOptions& options = kSmall) {
   std::ostringstream out, err;
@@ -89,12 +89,69 @@ TEST(RenderResults, NamesTheMissingCalibrationAndItsCommand) {
 
 TEST(RenderResults, NamesTheOptionOutOfRange) {
   const auto folder = FreshFolder("OptionRange");
-  for (const RenderOptions& options : {RenderOptions{10, 10}, RenderOptions{2008, 5000}}) {
+  RenderOptions range;
+  range.range = {5, 5};
+  const std::pair<RenderOptions, const char*> wrong[] = {
+      {{10, 10}, "width_px"},
+      {{2008, 500}, "width_px x height_px of at least 150 x 80 mm"},
+      {{16385, 1240}, "width_px"},
+      {{2008, 16385}, "height_px from 1 to 16384 is wanted"},
+      {{2008, 1240, 50}, "dots_per_inch from 72 to 2400"},
+      {{2008, 1240, 1200}, "150 x 80 mm"},
+      {range, "range with a low end below the high one"}};
+  for (const auto& [options, part] : wrong) {
     const Status status = Render(folder, options);
-    ASSERT_FALSE(status.ok());
-    EXPECT_EQ(status.error().kind, ErrorKind::kBadInput);
-    EXPECT_NE(status.error().message.find("_px"), std::string::npos);
+    ASSERT_FALSE(status.ok()) << part;
+    EXPECT_EQ(status.error().kind, ErrorKind::kUsage);
+    EXPECT_NE(status.error().message.find(part), std::string::npos) << status.error().message;
   }
+}
+
+TEST(RenderOptions, TextsKeepTheirSizeOnPaper) {
+  EXPECT_EQ(RenderOptions{}.Dpi(), 300);
+  EXPECT_EQ((RenderOptions{4016, 2480}.Dpi()), 600);
+  EXPECT_EQ((RenderOptions{4016, 2480, 300}.Dpi()), 300);
+}
+
+TEST(RenderResults, ASingleViewLeavesTheOthersAlone) {
+  const auto folder = FreshFolder("SingleView");
+  WriteResults(folder, {.ruler = false, .pipe = false});
+  std::filesystem::create_directories(folder / "pictures");
+  ASSERT_TRUE(WriteFileAtomically(folder / "pictures/array.png", "other").ok());
+  ASSERT_TRUE(WriteFileAtomically(folder / "pictures/pipe_strain_007.png", "other").ok());
+  RenderOptions options = kSmall;
+  options.view = "targets";
+  ASSERT_TRUE(Render(folder, options).ok());
+  EXPECT_EQ(Bytes(folder / "pictures/array.png"), "other");
+  EXPECT_EQ(Bytes(folder / "pictures/pipe_strain_007.png"), "other");
+  EXPECT_EQ(Bytes(folder / "pictures/targets.png").substr(1, 3), "PNG");
+}
+
+TEST(RenderResults, TheWholeSetTakesAwayWhatNoLongerBelongs) {
+  const auto folder = FreshFolder("WholeSet");
+  WriteResults(folder, {.ruler = false, .pipe = false});
+  std::filesystem::create_directories(folder / "pictures");
+  for (const char* name : {"pipe_strain.png", "pipe_strain_007.png", "mine.png"})
+    ASSERT_TRUE(WriteFileAtomically(folder / "pictures" / name, "other").ok());
+  ASSERT_TRUE(Render(folder).ok());
+  EXPECT_FALSE(std::filesystem::exists(folder / "pictures/pipe_strain.png"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "pictures/pipe_strain_007.png"));
+  EXPECT_EQ(Bytes(folder / "pictures/mine.png"), "other");
+}
+
+TEST(RenderResults, WritesAViewToAFileWithTransparency) {
+  const auto folder = FreshFolder("ToAFile");
+  WriteResults(folder, {.ruler = false, .pipe = false});
+  RenderOptions options = kSmall;
+  options.view = "array";
+  options.transparent = true;
+  std::ostringstream out, err;
+  Console console(out, err, false);
+  ASSERT_TRUE(RenderResults(folder, options, console, folder / "one.png").ok());
+  const std::string png = Bytes(folder / "one.png");
+  EXPECT_EQ(png.at(24), 8);  // bits
+  EXPECT_EQ(png.at(25), 6);  // red, green, blue, alpha
+  EXPECT_FALSE(std::filesystem::exists(folder / "pictures"));
 }
 
 TEST(RenderResults, FailsAsOutputWhenThePicturesCannotBeWritten) {

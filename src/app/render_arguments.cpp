@@ -1,0 +1,76 @@
+#include "app/render_arguments.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+
+#include "base/numbers.h"
+#include "viz/picture_set.h"
+
+namespace telestrain {
+namespace {
+
+std::string ViewHelp() {
+  std::string names;
+  for (const std::string& name : viz::PictureNames()) names += (names.empty() ? "" : ", ") + name;
+  return "draw one picture of the standard set (default: all): " + names;
+}
+
+// "2008x1240".
+Status ReadSize(const std::string& text, RenderOptions& options) {
+  const auto x = text.find('x');
+  const auto width = x == std::string::npos ? std::nullopt : ParseInt(text.substr(0, x));
+  const auto height = x == std::string::npos ? std::nullopt : ParseInt(text.substr(x + 1));
+  if (!width || !height)
+    return Error{ErrorKind::kUsage,
+                 "--size takes WIDTHxHEIGHT in px, as in 2008x1240, found '" + text + "'"};
+  options.width_px = *width;
+  options.height_px = *height;
+  return {};
+}
+
+}  // namespace
+
+void RenderArguments::AddTo(CLI::App& app) {
+  app.add_option("--view", view, ViewHelp());
+  app.add_option("--state", state, "state of the pipe: its number from 0, its image or 'largest'")
+      ->capture_default_str();
+  app.add_option("--quantity", quantity,
+                 "what colours the pipe: a point array of pipe_NNN.vtp (default: axial strain)");
+  app.add_option("--range", range, "ends of the pipe's colour bar, in the quantity's unit")
+      ->expected(2)
+      ->type_name("LOW HIGH");
+  app.add_option("--size", size, "WIDTHxHEIGHT in px, up to 16384 a side (default: 2008x1240)");
+  app.add_option("--dpi", dpi,
+                 "px per inch on paper, where texts and lines keep their size (default: the "
+                 "picture is 170 mm wide)");
+  app.add_flag("--transparent", transparent, "nothing instead of white paper");
+  app.add_option("--backend", backend, "source of OpenGL; both give the same pictures")
+      ->check(CLI::IsMember({"osmesa", "egl"}))
+      ->capture_default_str();
+  app.add_option("--out", out,
+                 "folder, or a file in .png for one view (default: RESULTS/pictures)");
+}
+
+Result<RenderOptions> ReadOptions(const RenderArguments& arguments) {
+  RenderOptions options;
+  if (!arguments.size.empty())
+    TELESTRAIN_RETURN_IF_ERROR(ReadSize(arguments.size, options));
+  else if (arguments.dpi > 0) {  // the same paper
+    // Whatever is refused later must fit into an int before.
+    const double scale = std::min(1e3, static_cast<double>(arguments.dpi) / options.Dpi());
+    options.width_px = static_cast<int>(std::lround(options.width_px * scale));
+    options.height_px = static_cast<int>(std::lround(options.height_px * scale));
+  }
+  options.dots_per_inch = arguments.dpi;
+  options.transparent = arguments.transparent;
+  options.backend = arguments.backend == "egl" ? GlBackend::kEgl : GlBackend::kOsMesa;
+  options.view = arguments.view;
+  options.state = arguments.state;
+  options.quantity = arguments.quantity;
+  if (arguments.range.size() == 2) options.range = {arguments.range[0], arguments.range[1]};
+  TELESTRAIN_RETURN_IF_ERROR(CheckRenderOptions(options));
+  return options;
+}
+
+}  // namespace telestrain

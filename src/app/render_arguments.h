@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "viz/render.h"
+
+namespace CLI {
+class App;
+}
+
+namespace telestrain {
+
+// The words of `telestrain render`.
+struct RenderArguments {
+  std::string view, state = "largest", quantity, size, out;
+  std::string backend = "osmesa";
+  std::vector<double> range;  // two, or none
+  int dpi = 0;
+  bool transparent = false;
+
+  void AddTo(CLI::App& app);
+};
+
+// Fails (kUsage) with the option and its limits.
+Result<RenderOptions> ReadOptions(const RenderArguments& arguments);
+
+}  // namespace telestrain
