@@ -10,7 +10,7 @@
 namespace telestrain::viz {
 namespace {
 
-constexpr double kFooter_pt = 48, kMargin_pt = 6;
+constexpr double kFooter_pt = 56, kMargin_pt = 6;
 
 std::vector<LegendEntry> LegendOf(const Scene& scene) {
   using Sign = LegendEntry::Sign;
@@ -38,6 +38,9 @@ std::vector<LegendEntry> LegendOf(const Scene& scene) {
                        "pipe, fitted \u00d8 " + FormatFixed(2 * scene.pipe->radius_mm, 3) + " mm"});
   else
     entries.push_back({Sign::kNone, {}, 1, "no pipe measured"});
+  if (scene.pipe && !scene.pipe->gauges.empty())
+    entries.push_back({Sign::kBox, kGaugeColor, 0.9,
+                       CountOf(static_cast<int>(scene.pipe->gauges.size()), "strain gauge")});
   return entries;
 }
 
@@ -47,8 +50,8 @@ double ArrayKeyHeight(const Canvas& canvas) { return canvas.Px(kFooter_pt + kMar
 
 Status AddArrayKey(Canvas* canvas, const Scene& scene, const ViewDirection& direction) {
   const double margin = canvas->Px(kMargin_pt), height = canvas->Px(kFooter_pt);
-  const double triad_px = canvas->Px(48), bar_px = canvas->Px(112);
-  const double bar_left = canvas->Width() - bar_px - canvas->Px(14);
+  const double triad_px = canvas->Px(48), bar_px = canvas->Px(104);
+  const double bar_left = canvas->Width() - bar_px - canvas->Px(18);
   AddTriad(canvas, AxesOf(scene), direction, {margin, margin, triad_px, height - margin});
   const double legend_left = margin + triad_px + canvas->Px(4);
   const double legend_px = bar_left - legend_left - canvas->Px(6);
@@ -66,8 +69,10 @@ Status AddArrayKey(Canvas* canvas, const Scene& scene, const ViewDirection& dire
   }
   TELESTRAIN_RETURN_IF_ERROR(
       AddLegend(canvas, entries, {legend_left, margin, legend_px, height - margin}));
-  AddColorBar(canvas, ResidualColors(scene.boards), ResidualScale(scene.boards),
-              "board residual RMS / px", {bar_left, 0, bar_px, height});
+  const ColorScale residual = ResidualScale(scene.boards);
+  AddColorBar(canvas, ResidualColors(scene.boards), residual, "board residual RMS / px",
+              {bar_left, 0, bar_px, height},
+              LimitMarks(scene.limits.reprojection_rms_px, "px", residual));
   return {};
 }
 

@@ -151,8 +151,7 @@ void AddBoards(const JsonNode& calibration, const TargetSpec& target, Scene* sce
   const JsonNode poses = calibration.At("poses");
   for (int i = 0; i < poses.Size(); ++i) {
     const PlacedTarget placed = PlacedTargetOf(poses.At(i), *scene);
-    if (placed.covariance)
-      CheckPoseParameters(calibration.At("pose_covariance_parameters"));
+    if (placed.covariance) CheckPoseParameters(calibration.At("pose_covariance_parameters"));
     for (const SubBoard& print : target.boards) {
       if (std::find(groups.begin(), groups.end(), print.group) == groups.end()) continue;
       Board board;

@@ -136,6 +136,15 @@ double AddColorBar(Canvas* canvas, const ColorMap& colors, const ColorScale& sca
   return bar.bottom();
 }
 
+std::vector<ColorBarMark> LimitMarks(const std::optional<double>& limit, const std::string& unit,
+                                     const ColorScale& scale) {
+  if (!limit) return {};
+  const std::string text = FormatShortest(*limit) + " " + unit;
+  if (scale.low >= 0) return {{*limit, "limit " + text}};
+  if (*limit > scale.high) return {{*limit, "limit \u00b1" + text}};
+  return {{-*limit, "limit \u2212" + text}, {*limit, "limit " + text}};
+}
+
 ColorScale ScaleOfRange(const std::array<double, 2>& range, const std::vector<double>& values) {
   const auto [low, high] = range;
   const ColorScale round = ScaleFor({low, high}, 0);

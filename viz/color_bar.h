@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +23,11 @@ struct ColorBarMark {
 double AddColorBar(Canvas* canvas, const ColorMap& colors, const ColorScale& scale,
                    const std::string& title, const PixelBox& box,
                    const std::vector<ColorBarMark>& marks = {});
+
+// The marks of a limit that a session sets, also of its negative where the scale has one; none when
+// it sets none.
+std::vector<ColorBarMark> LimitMarks(const std::optional<double>& limit, const std::string& unit,
+                                     const ColorScale& scale);
 
 // The scale of a range that somebody chose: its ends as they are, round ticks between.
 ColorScale ScaleOfRange(const std::array<double, 2>& range, const std::vector<double>& values);

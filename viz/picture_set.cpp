@@ -4,6 +4,7 @@
 #include <array>
 
 #include "base/numbers.h"
+#include "viz/rays_picture.h"
 #include "viz/scene/scene_colors.h"
 
 namespace telestrain::viz {
@@ -17,17 +18,19 @@ Result<Picture> Always(const Scene& scene, const RenderOptions& options, const P
 
 bool HasViews(const Scene&) { return true; }  // without a calibration there is no scene
 bool HasPipe(const Scene& scene) { return scene.pipe && !scene.pipe->states.empty(); }
+bool HasOptics(const Scene& scene) { return scene.optics.has_value(); }
 bool HasResiduals(const Scene& scene) { return !scene.residual_cells.empty(); }
 
 constexpr std::array kKinds{
-    PictureKind{"array", Always<DrawArray>, HasViews, false},
-    PictureKind{"side", Always<DrawSide>, HasViews, false},
-    PictureKind{"top", Always<DrawTop>, HasViews, false},
-    PictureKind{"targets", Always<DrawTargets>, HasViews, false},
-    PictureKind{"pipe", Always<DrawPipe>, HasPipe, false},
-    PictureKind{"pipe_strain", DrawPipeStrain, HasPipe, true},
-    PictureKind{"residuals", Always<DrawResiduals>, HasResiduals, false},
-    PictureKind{"contact_sheet", nullptr, HasViews, false},
+    PictureKind{"array", Always<DrawArray>, HasViews, true, false},
+    PictureKind{"side", Always<DrawSide>, HasViews, false, false},
+    PictureKind{"top", Always<DrawTop>, HasViews, false, false},
+    PictureKind{"rays", Always<DrawOptics>, HasOptics, false, false},
+    PictureKind{"targets", Always<DrawTargets>, HasViews, true, false},
+    PictureKind{"pipe", Always<DrawPipe>, HasPipe, false, false},
+    PictureKind{"pipe_strain", DrawPipeStrain, HasPipe, true, true},
+    PictureKind{"residuals", Always<DrawResiduals>, HasResiduals, false, false},
+    PictureKind{"contact_sheet", nullptr, HasViews, false, false},
 };
 
 Error Usage(std::string message) { return {ErrorKind::kUsage, std::move(message)}; }
@@ -64,11 +67,11 @@ Result<std::size_t> StateFor(const Pipe& pipe, const std::string& word) {
 
 // The planned files of one kind.
 void AddPlanned(const PictureKind& kind, const Scene& scene, const PictureChoices& choices,
-                std::vector<PlannedPicture>& planned) {
+                bool only_reported, std::vector<PlannedPicture>& planned) {
   PictureChoices each = choices;
   if (kind.of_every_state) each.state = scene.pipe->largest_state;
   planned.push_back({std::string(kind.name) + ".png", kind.draw, each});
-  if (!kind.of_every_state) return;
+  if (!kind.of_every_state || only_reported) return;
   if (!each.range) {  // one for all, so that the pictures compare
     const ColorScale scale = ValueScale(*scene.pipe, choices.quantity);
     each.range = {scale.low, scale.high};
@@ -126,7 +129,8 @@ Result<std::vector<PlannedPicture>> PlanPictures(const Scene& scene, const Rende
   std::vector<PlannedPicture> planned;
   if (options.view.empty()) {
     for (const PictureKind& kind : kKinds)
-      if (kind.has(scene)) AddPlanned(kind, scene, choices, planned);
+      if (kind.has(scene) && (kind.in_report || !options.only_reported))
+        AddPlanned(kind, scene, choices, options.only_reported, planned);
     return planned;
   }
   const auto kind = std::find_if(kKinds.begin(), kKinds.end(),

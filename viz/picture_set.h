@@ -16,6 +16,7 @@ struct PictureKind {
   const char* name;           // of --view; the file is name.png
   DrawFunction draw;          // null: the contact sheet, made of the others
   bool (*has)(const Scene&);  // whether there is something to draw
+  bool in_report;             // report.pdf shows it
   bool of_every_state;        // name_000.png … of every state beside name.png of one
 };
 // In the order in which they are drawn; the contact sheet is the last.
@@ -39,9 +40,9 @@ struct PlannedPicture {
 // nothing may be asked for.
 Result<PictureChoices> ChoicesFor(const Scene& scene, const RenderOptions& options);
 
-// What to draw: the whole set or options.view. In the whole set the file without a number shows the
-// largest state of a kind that has a file of every state. Fails (kUsage) as ChoicesFor does, and
-// when there is no such view or the results have nothing for it.
+// What to draw: the whole set, what the report shows of it, or options.view. In the whole set the
+// file without a number shows the largest state of a kind that has a file of every state. Fails
+// (kUsage) as ChoicesFor does, and when there is no such view or the results have nothing for it.
 Result<std::vector<PlannedPicture>> PlanPictures(const Scene& scene, const RenderOptions& options);
 
 }  // namespace telestrain::viz

@@ -182,6 +182,12 @@ Result<Picture> DrawRays(const OpticalRig& rig, const RigDesign& design,
   return canvas->Finish();
 }
 
+Result<Picture> DrawOptics(const Scene& scene, const RenderOptions& options) {
+  TELESTRAIN_CHECK(scene.optics.has_value(), "a picture of the rays needs the mirrors");
+  TELESTRAIN_ASSIGN_OR_RETURN(const RigDesign design, AnalyseRig(*scene.optics, {}));
+  return DrawRays(*scene.optics, design, options);
+}
+
 Status RenderRays(const OpticalRig& rig, const RigDesign& design,
                   const std::filesystem::path& path) {
   TELESTRAIN_ASSIGN_OR_RETURN(const Picture picture,

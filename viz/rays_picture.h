@@ -15,6 +15,9 @@ namespace telestrain::viz {
 Result<Picture> DrawRays(const OpticalRig& rig, const RigDesign& design,
                          const RenderOptions& options);
 
+// The same of the rig that the session gives; needs scene.optics. Fails (kBadInput) as AnalyseRig.
+Result<Picture> DrawOptics(const Scene& scene, const RenderOptions& options);
+
 // Draws the picture at the default size and writes it as PNG.
 Status RenderRays(const OpticalRig& rig, const RigDesign& design,
                   const std::filesystem::path& path);

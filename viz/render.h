@@ -28,6 +28,8 @@ struct RenderOptions {
   GlBackend backend = GlBackend::kOsMesa;
   // One picture of the standard set by its name; empty: all.
   std::string view{};
+  // Without a view: only what report.pdf shows of the set.
+  bool only_reported = false;
   // State of the pipe: its index, its image or "largest" (the largest strain).
   std::string state = "largest";
   // What colours the pipe: name of a point array of pipe_NNN.vtp; empty: the axial strain.

@@ -14,7 +14,7 @@ namespace {
 
 constexpr ViewDirection kOverview{0, 24};
 constexpr ViewDirection kCloseUp{28, 26};
-constexpr double kFooter_pt = 44, kOverview_pt = 58, kMargin_pt = 6;
+constexpr double kFooter_pt = 56, kOverview_pt = 58, kMargin_pt = 6;
 constexpr double kRulerStub_mm = 0.35;
 
 std::vector<Board> BoardsOf(const Scene& scene, const std::string& group) {
@@ -108,18 +108,21 @@ std::vector<LegendEntry> LegendOf(const Scene& scene) {
 
 Status AddFooter(Canvas* canvas, const Scene& scene) {
   const double margin = canvas->Px(kMargin_pt), height = canvas->Px(kFooter_pt);
-  const double triad_px = canvas->Px(50), bar_px = canvas->Px(96), gap_px = canvas->Px(16);
-  const double bar_left = canvas->Width() - 2 * bar_px - gap_px - canvas->Px(12);
+  const double triad_px = canvas->Px(50), bar_px = canvas->Px(92), gap_px = canvas->Px(30);
+  const double bar_left = canvas->Width() - 2 * bar_px - gap_px - canvas->Px(18);
   AddTriad(canvas, AxesOf(scene), kCloseUp, {margin, margin, triad_px, height - margin});
   const double legend_left = margin + triad_px + canvas->Px(8);
   TELESTRAIN_RETURN_IF_ERROR(
       AddLegend(canvas, LegendOf(scene),
                 {legend_left, margin, bar_left - legend_left - canvas->Px(8), height - margin}));
-  AddColorBar(canvas, ResidualColors(scene.boards), ResidualScale(scene.boards),
-              "board residual RMS / px", {bar_left, 0, bar_px, height});
+  const ColorScale residual = ResidualScale(scene.boards), error = RulerScale(scene.rulers);
+  AddColorBar(canvas, ResidualColors(scene.boards), residual, "board residual RMS / px",
+              {bar_left, 0, bar_px, height},
+              LimitMarks(scene.limits.reprojection_rms_px, "px", residual));
   if (!scene.rulers.empty())
-    AddColorBar(canvas, RulerColors(scene.rulers), RulerScale(scene.rulers),
-                "ruler length error / \u00b5m", {bar_left + bar_px + gap_px, 0, bar_px, height});
+    AddColorBar(canvas, RulerColors(scene.rulers), error, "ruler length error / \u00b5m",
+                {bar_left + bar_px + gap_px, 0, bar_px, height},
+                LimitMarks(scene.limits.ruler_mpe_um, "\u00b5m", error));
   return {};
 }
 

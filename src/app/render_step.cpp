@@ -1,22 +1,17 @@
 #include <algorithm>
-#include <array>
 
 #include "app/results_folder.h"
 #include "app/steps.h"
 #include "viz/picture_set.h"
 
 namespace telestrain {
-namespace {
 
 namespace fs = std::filesystem;
 
-// The views that report.pdf shows.
-constexpr std::array<const char*, 3> kReported{"array", "targets", "pipe_strain"};
-
-}  // namespace
-
 Status RenderStep(const fs::path& results, Console& console) {
-  return RenderStep(results, RenderOptions{}, {}, console);
+  RenderOptions options;
+  options.only_reported = true;
+  return RenderStep(results, options, {}, console);
 }
 
 Status RenderStep(const fs::path& results, const RenderOptions& options, const fs::path& out,
@@ -24,8 +19,12 @@ Status RenderStep(const fs::path& results, const RenderOptions& options, const f
   TELESTRAIN_RETURN_IF_ERROR(RequireConsistent(results, Step::kRender));
   // What cannot be drawn must be known before anything in the results folder is touched.
   TELESTRAIN_RETURN_IF_ERROR(CheckRender(results, options));
-  const bool is_reported = options.view.empty() || std::find(kReported.begin(), kReported.end(),
-                                                             options.view) != kReported.end();
+  const auto kinds = viz::PictureKinds();
+  const bool is_reported =
+      options.view.empty() ||
+      std::any_of(kinds.begin(), kinds.end(), [&](const viz::PictureKind& kind) {
+        return kind.in_report && options.view == kind.name;
+      });
   if (out.empty() && is_reported)
     TELESTRAIN_RETURN_IF_ERROR(
         RemoveOutputsFrom(results, options.view.empty() ? Step::kRender : Step::kReport));
