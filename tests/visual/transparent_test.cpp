@@ -69,7 +69,9 @@ TEST(Transparent, HasPaperGlassAndInk) {
     const std::uint8_t* rgb = &opaque.image.rgb[3 * i];
     const bool is_white = rgb[0] == 255 && rgb[1] == 255 && rgb[2] == 255;
     // Where white paper shows nothing, any paper shows through.
-    if (is_white) EXPECT_EQ(alpha, 0) << i;
+    if (is_white) {
+      EXPECT_EQ(alpha, 0) << i;
+    }
     paper += alpha == 0;
     glass += alpha > 0 && alpha < 255;
     ink += alpha == 255;
