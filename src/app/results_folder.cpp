@@ -31,7 +31,8 @@ const std::vector<std::string>& OutputsOf(Step step) {
       {Step::kMeasure,
        {"strain.csv", "strain_components.csv", "strain.json", "strain_states.jsonl"}},
       {Step::kRender, {}},  // the standard pictures, whose number depends on the states
-      {Step::kReport, {"results.json", "report.pdf"}}};
+      {Step::kReport, {"results.json", "report.pdf"}},
+      {Step::kReview, {"review.html"}}};
   return kOutputs.at(step);
 }
 
@@ -132,7 +133,7 @@ Status RemoveOutputsFrom(const fs::path& results, Step step) {
   // Diagnosis, ruler and pipe do not depend on each other; everything else follows in order.
   const auto is_branch = [](Step s) { return s >= Step::kDiagnose && s <= Step::kMeasure; };
   for (const Step later : {Step::kDetect, Step::kCalibrate, Step::kDiagnose, Step::kVerify,
-                           Step::kMeasure, Step::kRender, Step::kReport}) {
+                           Step::kMeasure, Step::kRender, Step::kReport, Step::kReview}) {
     if (later < step || (later != step && is_branch(step) && is_branch(later))) continue;
     if (step == Step::kDiagnose && later == Step::kRender) continue;  // pictures do not show it
     for (const std::string& name : OutputsOf(later))

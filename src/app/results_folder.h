@@ -11,7 +11,7 @@
 namespace telestrain {
 
 // The files of a results folder, in the order in which the steps make them.
-enum class Step { kDetect, kCalibrate, kDiagnose, kVerify, kMeasure, kRender, kReport };
+enum class Step { kDetect, kCalibrate, kDiagnose, kVerify, kMeasure, kRender, kReport, kReview };
 
 // Removes the files of this step and of those that depend on it.
 Status RemoveOutputsFrom(const std::filesystem::path& results, Step step);

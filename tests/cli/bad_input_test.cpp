@@ -108,7 +108,7 @@ TEST_F(BadInput, AStepWithoutTheStepBeforeSaysWhichOneIsMissing) {
     EXPECT_EQ(run.exit_code, 3) << verb;
     EXPECT_NE(run.err.find("telestrain calibrate"), std::string::npos) << run.err;
   }
-  for (const std::string verb : {"render", "report"}) {
+  for (const std::string verb : {"render", "report", "review"}) {
     const ProgramRun run = RunTelestrain({verb, (scratch() / "nowhere").string()});
     EXPECT_EQ(run.exit_code, 3) << verb;
     EXPECT_NE(run.err.find("does not exist"), std::string::npos) << run.err;

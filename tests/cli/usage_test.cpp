@@ -7,7 +7,7 @@ namespace {
 
 const std::vector<std::string> kVerbs = {"run",     "detect", "calibrate", "verify",
                                          "measure", "render", "report",    "simulate",
-                                         "design",  "study",  "correlate"};
+                                         "design",  "study",  "correlate", "review"};
 
 bool Holds(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
@@ -37,7 +37,7 @@ TEST(Usage, AMissingArgumentIsNamed) {
     ExpectUsageError({verb, "--out", "results"}, "SESSION");
     ExpectUsageError({verb, "session"}, "--out");
   }
-  for (const std::string verb : {"render", "report"}) ExpectUsageError({verb}, "RESULTS");
+  for (const std::string verb : {"render", "report", "review"}) ExpectUsageError({verb}, "RESULTS");
   ExpectUsageError({"simulate"}, "--out");
 }
 

@@ -1,0 +1,115 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+
+#include "app/command.h"
+#include "app/results_folder.h"
+#include "base/files.h"
+#include "base/json_file.h"
+#include "base/numbers.h"
+#include "viz/review/review_page.h"
+#include "viz/scene_from_results.h"
+
+// telestrain review RESULTS
+//   review     /data/results/review.html, 7.6 MB: scene with 289 parts, 3 pictures, 37 tables
+
+namespace telestrain {
+namespace {
+
+namespace fs = std::filesystem;
+
+Result<std::vector<viz::ReviewPicture>> ReadPictures(const fs::path& folder) {
+  std::vector<fs::path> paths;
+  std::error_code code;
+  for (fs::directory_iterator entry(folder, code), end; !code && entry != end;
+       entry.increment(code))
+    if (entry->path().extension() == ".png") paths.push_back(entry->path());
+  if (paths.empty())
+    return BadInput(folder.string() + ": holds no pictures; run 'telestrain render' first");
+  std::sort(paths.begin(), paths.end());
+  std::vector<viz::ReviewPicture> pictures;
+  for (const fs::path& path : paths) {
+    TELESTRAIN_ASSIGN_OR_RETURN(std::string png, ReadFile(path));
+    pictures.push_back({path.filename().string(), std::move(png)});
+  }
+  return pictures;
+}
+
+// results.json says which files it was made of.
+Status RequireSameEvidence(const nlohmann::ordered_json& json, const fs::path& results) {
+  for (const auto& table : json["tables"]) {
+    if (table.value("id", "") != "result-files") continue;
+    for (const auto& row : table["rows"]) {
+      const std::string name = row.at(0).get<std::string>();
+      TELESTRAIN_ASSIGN_OR_RETURN(const std::string hash, Sha256HexOfFile(results / name));
+      if (row.back() != hash)
+        return BadInput((results / "results.json").string() + ": was made from another " + name +
+                        " than the one that lies beside it; run 'telestrain report' again");
+    }
+  }
+  return {};
+}
+
+Result<viz::ReviewContent> ReadContent(const fs::path& results) {
+  TELESTRAIN_RETURN_IF_ERROR(RequireConsistent(results, Step::kReview));
+  viz::ReviewContent content;
+  content.version = TELESTRAIN_VERSION;
+  content.vtk_js = viz::BuiltInVtkJs();
+  TELESTRAIN_ASSIGN_OR_RETURN(
+      content.results,
+      ReadJson(results / "results.json", "telestrain.results/1", "telestrain report"));
+  try {
+    TELESTRAIN_RETURN_IF_ERROR(RequireSameEvidence(content.results, results));
+  } catch (const nlohmann::json::exception& e) {
+    return BadInput((results / "results.json").string() + ": " + e.what() +
+                    "; run 'telestrain report' again");
+  }
+  for (const char* name : {"results.json", "calibration.json"}) {
+    TELESTRAIN_ASSIGN_OR_RETURN(std::string hash, Sha256HexOfFile(results / name));
+    content.hashes.emplace_back(name, std::move(hash));
+  }
+  TELESTRAIN_ASSIGN_OR_RETURN(content.pictures, ReadPictures(results / "pictures"));
+  TELESTRAIN_ASSIGN_OR_RETURN(content.scene, viz::SceneFromResults(results));
+  content.list = viz::PartsOf(content.scene);
+  return content;
+}
+
+class ReviewCommand : public Command {
+ public:
+  std::string Name() const override { return "review"; }
+  std::string Summary() const override {
+    return "put verdict, scene, pictures and tables into one HTML file that opens anywhere";
+  }
+  std::string Example() const override { return "telestrain review results"; }
+  void AddOptions(CLI::App& app) override {
+    app.add_option("RESULTS", results_, "results folder of the earlier steps")->required();
+    app.add_option("--out", out_, "the file to write (default: RESULTS/review.html)");
+  }
+  Result<int> Run(Console& console) override {
+    const fs::path path = out_.empty() ? fs::path(results_) / "review.html" : fs::path(out_);
+    TELESTRAIN_ASSIGN_OR_RETURN(const viz::ReviewContent content, ReadContent(results_));
+    TELESTRAIN_ASSIGN_OR_RETURN(const std::string page, viz::ReviewPage(content));
+    TELESTRAIN_RETURN_IF_ERROR(WriteFileAtomically(path, page));
+    const bool interactive = !content.vtk_js.script.empty();
+    if (!interactive)
+      console.Warn(
+          "the page has no interactive scene, because this program was built without vtk.js; "
+          "install npm and run 'bash bootstrap build' with the network on");
+    std::error_code code;
+    console.Say("review     " + fs::absolute(path, code).lexically_normal().string() + ", " +
+                FormatFixed(static_cast<double>(page.size()) / 1e6, 1) + " MB: " +
+                (interactive ? "scene with " + CountText(content.list.parts.size(), "part")
+                             : std::string("no scene")) +
+                ", " + CountText(content.pictures.size(), "picture") + ", " +
+                CountText(content.results["tables"].size(), "table"));
+    return 0;
+  }
+
+ private:
+  std::string results_, out_;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> MakeReviewCommand() { return std::make_unique<ReviewCommand>(); }
+
+}  // namespace telestrain

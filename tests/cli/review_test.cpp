@@ -1,0 +1,82 @@
+// `review` makes one file of a results folder that is complete and of one piece.
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "cli/session_copy.h"
+
+namespace telestrain::testing_support {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool Holds(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+// Without pipe images, which the page does not need, and with a picture that takes no time.
+class ReviewVerb : public SessionCopy {
+ protected:
+  ReviewVerb() {
+    Remove("pipe.csv");
+    Replace("session.toml", "strain_error_microstrain = 20.0\n", "");
+    MustRun({"detect", "calibrate"});
+  }
+  ProgramRun Review() const { return RunTelestrain({"review", results().string()}); }
+  int Report() const { return RunTelestrain({"report", results().string()}).exit_code; }
+  void AddPicture() const {
+    fs::create_directories(results() / "pictures");
+    fs::copy_file(session() / "ruler/ruler_001.png", results() / "pictures/array.png");
+  }
+  void ExpectRefused(const std::string& part) const {
+    const ProgramRun run = Review();
+    EXPECT_EQ(run.exit_code, 3) << run.out;
+    EXPECT_TRUE(Holds(run.err, part)) << run.err;
+    EXPECT_FALSE(fs::exists(page()));
+  }
+  fs::path page() const { return results() / "review.html"; }
+};
+
+TEST_F(ReviewVerb, WritesOneFileWithTheSameBytesEveryTime) {
+  Report();
+  AddPicture();
+  const auto before = BytesBelow(results());
+  const ProgramRun run = Review();
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_TRUE(Holds(run.out, "review     " + page().string() + ", ")) << run.out;
+  const std::string bytes = ReadAll(page());
+  EXPECT_TRUE(bytes.starts_with("<!DOCTYPE html>"));
+  EXPECT_TRUE(Holds(bytes, "data:image/png;base64,"));
+  const fs::path other = scratch() / "other.html", none = scratch() / "none" / "page.html";
+  const auto write_to = [&](const fs::path& path) {
+    return RunTelestrain({"review", results().string(), "--out", path.string()}).exit_code;
+  };
+  EXPECT_EQ(write_to(other), 0);
+  EXPECT_EQ(ReadAll(other), bytes);
+  EXPECT_EQ(write_to(none), 5);
+  fs::remove(page());
+  EXPECT_EQ(BytesBelow(results()), before);
+}
+
+TEST_F(ReviewVerb, NeedsReportAndPicturesOfTheSameRun) {
+  ExpectRefused("run 'telestrain report' first");
+  Report();
+  ExpectRefused("run 'telestrain render' first");
+  AddPicture();
+  std::ofstream(results() / "residuals.csv", std::ios::app) << "\n";
+  ExpectRefused("was made from another residuals.csv than the one that lies beside it");
+}
+
+TEST_F(ReviewVerb, EveryEarlierStepRemovesThePage) {
+  const auto page_survives = [&](const auto& step) {
+    std::ofstream(page()) << "old";
+    step();
+    return fs::exists(page());
+  };
+  EXPECT_FALSE(page_survives([&] { Report(); }));
+  EXPECT_FALSE(page_survives([&] { MustRun({"verify"}); }));
+  EXPECT_FALSE(page_survives([&] { MustRun({"calibrate"}); }));
+}
+
+}  // namespace
+}  // namespace telestrain::testing_support
