@@ -14,6 +14,8 @@
 
 #include <algorithm>
 
+#include "viz/scene/scene_colors.h"
+
 namespace telestrain::viz {
 namespace {
 

@@ -21,9 +21,6 @@ struct ValueColors {
   ColorMap colors;
 };
 
-// Where a point has no value of the quantity.
-inline constexpr Rgb kNoValueColor{0.80, 0.80, 0.80};
-
 // Points, polygons and lines; every quantity as point data with its key as name.
 vtkSmartPointer<vtkPolyData> DataOf(const Part& part);
 vtkSmartPointer<vtkLookupTable> TableOf(const ColorMap& colors);

@@ -94,9 +94,53 @@ TEST_F(Export, CornersAreThoseThatTheCalibrationUsed) {
   EXPECT_EQ(corners, std::count(table.begin(), table.end(), '\n') - 1);
 }
 
+TEST_F(Export, WritesTheSceneForProgramsThatShowAndMeasureIt) {
+  MustRun({"detect", "calibrate", "measure"});
+  const std::vector<std::string> words = {
+      "export", results().string(), "--out", out().string(), "--format", "glb,paraview,stl,ply"};
+  const ProgramRun run = RunTelestrain(words);
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_TRUE(run.out.starts_with("export     scene.glb pipe.stl pipe.ply scene.vtm (")) << run.out;
+  // The state with the largest strain of three: 0 is the reference, 2 is unloaded again.
+  EXPECT_NE(ReadAll(out() / "pipe.ply").find("state 1, "), std::string::npos);
+  const auto first = BytesBelow(out());
+  const std::string index = ReadAll(out() / "scene.vtm");
+  for (const auto& [name, bytes] : first) {
+    if (!name.ends_with(".vtp")) continue;
+    EXPECT_NE(index.find("\"" + name + "\""), std::string::npos) << name;
+  }
+  ASSERT_EQ(RunTelestrain(words).exit_code, 0);
+  EXPECT_EQ(BytesBelow(out()), first);
+}
+
+TEST_F(Export, UsageErrorsNameWhatThereIsAndWriteNothing) {
+  MustRun({"detect", "calibrate", "measure"});
+  const auto run = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {"export", results().string(), "--out", out().string()});
+    return RunTelestrain(more);
+  };
+  for (const auto& [more, named] :
+       {std::pair<std::vector<std::string>, std::string>{{"--format", "obj"}, "paraview"},
+        {{"--format", "glb", "--state", "3"}, "0 to 2"},
+        {{"--format", "glb", "--quantity", "axial"}, "axial_microstrain"},
+        {{"--format", "stl", "--quantity", "axial_microstrain"}, "glb only"},
+        {{"--state", "1"}, "--format glb, stl and ply"}}) {
+    const ProgramRun bad = run(more);
+    EXPECT_EQ(bad.exit_code, 2) << bad.err;
+    EXPECT_NE(bad.err.find(named), std::string::npos) << bad.err;
+    EXPECT_FALSE(fs::exists(out()));
+  }
+}
+
 TEST_F(Export, BadInputSaysWhatToDo) {
   const ProgramRun none = RunExport(out());
   EXPECT_EQ(none.exit_code, 3) << none.err;
+  EXPECT_FALSE(fs::exists(out()));
+  MustRun({"detect", "calibrate"});
+  const ProgramRun unmeasured =
+      RunTelestrain({"export", results().string(), "--out", out().string(), "--format", "glb,stl"});
+  EXPECT_EQ(unmeasured.exit_code, 3) << unmeasured.err;
+  EXPECT_NE(unmeasured.err.find("telestrain measure"), std::string::npos) << unmeasured.err;
   EXPECT_FALSE(fs::exists(out()));
   MustRun({"detect"});
   const ProgramRun early = RunExport(out());

@@ -21,6 +21,8 @@ inline constexpr Rgb kInk{0.13, 0.15, 0.18};
 inline constexpr Rgb kRejectedColor{0.55, 0.55, 0.55};
 inline constexpr Rgb kGaugeColor{0.78, 0.55, 0.10};
 inline constexpr Rgb kArrowColor{0.25, 0.27, 0.30};
+// Where a point has no value of the quantity that colours its part.
+inline constexpr Rgb kNoValueColor{0.80, 0.80, 0.80};
 inline constexpr Rgb kMirrorColor{0.62, 0.68, 0.74};
 inline constexpr Rgb kSensorColor{0.30, 0.33, 0.37};
 
