@@ -1,4 +1,4 @@
-# What `cmake --install` copies: the program with its templates, and the geometry model of the array
+# What `cmake --install` copies: the programs with their templates, and the geometry model of the array
 # (base, geometry, optics) as the CMake package `telestrain` for other programs.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
@@ -12,6 +12,9 @@ if(TARGET telestrain)
   install(TARGETS telestrain RUNTIME COMPONENT program)
   install(DIRECTORY templates DESTINATION "${CMAKE_INSTALL_DATADIR}/telestrain" COMPONENT program
     OPTIONAL)
+endif()
+if(TARGET telestrain-view)
+  install(TARGETS telestrain-view RUNTIME COMPONENT program)
 endif()
 
 target_include_directories(telestrain_settings INTERFACE "$<INSTALL_INTERFACE:${header_folder}>")

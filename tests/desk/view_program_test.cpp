@@ -1,0 +1,77 @@
+#include <gtest/gtest.h>
+
+#include "cli/program_run.h"
+#include "desk/x_server.h"
+#include "visual/results_fixture.h"
+
+namespace telestrain {
+namespace {
+
+using testing_support::ProgramRun;
+using testing_support::RunProgram;
+using testing_support::Surroundings;
+
+// A results folder with a pipe, made up.
+std::filesystem::path Results(const std::string& name) {
+  const auto folder = visual_test::FreshFolder(name);
+  visual_test::WriteResults(folder);
+  return folder;
+}
+
+ProgramRun View(std::vector<std::string> words, const Surroundings& where = {}) {
+  words.insert(words.begin(), TELESTRAIN_VIEW_PROGRAM);
+  return RunProgram(words, where);
+}
+
+TEST(TelestrainView, WithoutADisplayEndsWith5AndTheRemedies) {
+  const auto results = Results("ViewNoDisplay").string();
+  for (const std::optional<std::string>& display :
+       {std::optional<std::string>{}, std::optional<std::string>{":4711"}}) {
+    const ProgramRun run = View({results}, {.environment = {{"DISPLAY", display}}});
+    EXPECT_EQ(run.exit_code, 5) << run.err;
+    for (const char* named : {"DISPLAY", "telestrain review", "telestrain render"})
+      EXPECT_NE(run.err.find(named), std::string::npos) << run.err;
+  }
+}
+
+TEST(TelestrainView, BadResultsEndWith3AndBadWordsWith2) {
+  EXPECT_EQ(View({"/nonexistent"}).exit_code, 3);
+  const auto results = Results("ViewBadWords").string();
+  EXPECT_EQ(View({}).exit_code, 2);
+  EXPECT_EQ(View({results, "--view", "5"}).exit_code, 2);
+  const ProgramRun state = View({results, "--state", "7"});
+  EXPECT_EQ(state.exit_code, 2);
+  EXPECT_NE(state.err.find("--state 7"), std::string::npos) << state.err;
+  const ProgramRun quantity = View({results, "--quantity", "axial"});
+  EXPECT_EQ(quantity.exit_code, 2);
+  EXPECT_NE(quantity.err.find("axial_microstrain"), std::string::npos) << quantity.err;
+}
+
+TEST(TelestrainView, HelpAndVersionNeedNoDisplay) {
+  const Surroundings nowhere{.environment = {{"DISPLAY", std::nullopt}}};
+  const ProgramRun help = View({"--help"}, nowhere);
+  EXPECT_EQ(help.exit_code, 0);
+  EXPECT_NE(help.out.find("Exit codes: 0 done"), std::string::npos) << help.out;
+  EXPECT_TRUE(View({"--version"}, nowhere).out.starts_with("telestrain-view 0."));
+}
+
+TEST(TelestrainView, ScreenshotIsTheSameEveryTimeAndAnotherFromAnotherSide) {
+  const desk_test::XServer server;
+  if (!server.problem().empty()) GTEST_SKIP() << server.problem();
+  const auto results = Results("ViewScreenshot");
+  const auto shoot = [&](const std::string& name, const std::string& view) {
+    const auto path = results / name;
+    const ProgramRun run = View({results.string(), "--view", view, "--width-px", "900",
+                                 "--height-px", "600", "--screenshot", path.string()});
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_EQ(run.err, "");
+    return testing_support::ReadAll(path);
+  };
+  const std::string first = shoot("first.png", "4");
+  EXPECT_GT(first.size(), 10000U);
+  EXPECT_EQ(first, shoot("second.png", "4"));
+  EXPECT_NE(first, shoot("top.png", "3"));
+}
+
+}  // namespace
+}  // namespace telestrain
