@@ -102,6 +102,15 @@ Status CheckRender(const fs::path& results, const RenderOptions& options) {
   return planned ? Status() : planned.error();
 }
 
+Result<bool> PicturesAreComplete(const fs::path& results) {
+  TELESTRAIN_ASSIGN_OR_RETURN(const viz::Scene scene, viz::SceneFromResults(results));
+  TELESTRAIN_ASSIGN_OR_RETURN(const auto planned, viz::PlanPictures(scene, {}));
+  return std::all_of(planned.begin(), planned.end(), [&](const viz::PlannedPicture& picture) {
+    std::error_code code;
+    return fs::is_regular_file(results / "pictures" / picture.file_name, code);
+  });
+}
+
 Status RenderResults(const fs::path& results, const RenderOptions& options, Console& console,
                      const fs::path& out) {
   TELESTRAIN_RETURN_IF_ERROR(CheckRenderOptions(options));

@@ -47,6 +47,10 @@ Status CheckRenderOptions(const RenderOptions& options);
 // Whether RenderResults would find what it needs: fails as it does, and draws nothing.
 Status CheckRender(const std::filesystem::path& results, const RenderOptions& options);
 
+// Whether the folder's pictures are the whole standard set of its results. Fails (kBadInput) when a
+// file of the folder is missing or malformed.
+Result<bool> PicturesAreComplete(const std::filesystem::path& results);
+
 // Writes the standard pictures of a results folder to `out` (empty: <results>/pictures), a folder,
 // or, when options.view names a picture and `out` ends in ".png", that file: array.png, targets.png
 // and so on (viz/picture_set.h has the list) and, when a strain was measured, the pipe's, of which

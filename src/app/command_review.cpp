@@ -3,6 +3,7 @@
 
 #include "app/command.h"
 #include "app/results_folder.h"
+#include "app/steps.h"
 #include "base/files.h"
 #include "base/json_file.h"
 #include "base/numbers.h"
@@ -10,6 +11,7 @@
 #include "viz/scene_from_results.h"
 
 // telestrain review RESULTS
+// Draws the standard pictures first where they are not all there.
 //   review     /data/results/review.html, 7.6 MB: scene with 289 parts, 3 pictures, 37 tables
 
 namespace telestrain {
@@ -23,8 +25,6 @@ Result<std::vector<viz::ReviewPicture>> ReadPictures(const fs::path& folder) {
   for (fs::directory_iterator entry(folder, code), end; !code && entry != end;
        entry.increment(code))
     if (entry->path().extension() == ".png") paths.push_back(entry->path());
-  if (paths.empty())
-    return BadInput(folder.string() + ": holds no pictures; run 'telestrain render' first");
   std::sort(paths.begin(), paths.end());
   std::vector<viz::ReviewPicture> pictures;
   for (const fs::path& path : paths) {
@@ -49,7 +49,7 @@ Status RequireSameEvidence(const nlohmann::ordered_json& json, const fs::path& r
   return {};
 }
 
-Result<viz::ReviewContent> ReadContent(const fs::path& results) {
+Result<viz::ReviewContent> ReadContent(const fs::path& results, Console& console) {
   TELESTRAIN_RETURN_IF_ERROR(RequireConsistent(results, Step::kReview));
   viz::ReviewContent content;
   content.version = TELESTRAIN_VERSION;
@@ -67,6 +67,8 @@ Result<viz::ReviewContent> ReadContent(const fs::path& results) {
     TELESTRAIN_ASSIGN_OR_RETURN(std::string hash, Sha256HexOfFile(results / name));
     content.hashes.emplace_back(name, std::move(hash));
   }
+  TELESTRAIN_ASSIGN_OR_RETURN(const bool complete, PicturesAreComplete(results));
+  if (!complete) TELESTRAIN_RETURN_IF_ERROR(RenderStep(results, RenderOptions{}, {}, console));
   TELESTRAIN_ASSIGN_OR_RETURN(content.pictures, ReadPictures(results / "pictures"));
   TELESTRAIN_ASSIGN_OR_RETURN(content.scene, viz::SceneFromResults(results));
   content.list = viz::PartsOf(content.scene);
@@ -86,7 +88,7 @@ class ReviewCommand : public Command {
   }
   Result<int> Run(Console& console) override {
     const fs::path path = out_.empty() ? fs::path(results_) / "review.html" : fs::path(out_);
-    TELESTRAIN_ASSIGN_OR_RETURN(const viz::ReviewContent content, ReadContent(results_));
+    TELESTRAIN_ASSIGN_OR_RETURN(const viz::ReviewContent content, ReadContent(results_, console));
     TELESTRAIN_ASSIGN_OR_RETURN(const std::string page, viz::ReviewPage(content));
     TELESTRAIN_RETURN_IF_ERROR(WriteFileAtomically(path, page));
     const bool interactive = !content.vtk_js.script.empty();

@@ -1,12 +1,27 @@
-#include <algorithm>
+#include <map>
 
 #include "app/results_folder.h"
 #include "app/steps.h"
+#include "base/files.h"
 #include "viz/picture_set.h"
 
 namespace telestrain {
+namespace {
 
 namespace fs = std::filesystem;
+
+// The pictures that report.pdf shows, as they lie in the results folder.
+std::map<std::string, std::string> ReportedPictures(const fs::path& results) {
+  std::map<std::string, std::string> bytes;
+  for (const viz::PictureKind& kind : viz::PictureKinds()) {
+    if (!kind.in_report) continue;
+    const std::string name = std::string(kind.name) + ".png";
+    if (auto png = ReadFile(results / "pictures" / name)) bytes[name] = *std::move(png);
+  }
+  return bytes;
+}
+
+}  // namespace
 
 Status RenderStep(const fs::path& results, Console& console) {
   RenderOptions options;
@@ -19,16 +34,12 @@ Status RenderStep(const fs::path& results, const RenderOptions& options, const f
   TELESTRAIN_RETURN_IF_ERROR(RequireConsistent(results, Step::kRender));
   // What cannot be drawn must be known before anything in the results folder is touched.
   TELESTRAIN_RETURN_IF_ERROR(CheckRender(results, options));
-  const auto kinds = viz::PictureKinds();
-  const bool is_reported =
-      options.view.empty() ||
-      std::any_of(kinds.begin(), kinds.end(), [&](const viz::PictureKind& kind) {
-        return kind.in_report && options.view == kind.name;
-      });
-  if (out.empty() && is_reported)
-    TELESTRAIN_RETURN_IF_ERROR(
-        RemoveOutputsFrom(results, options.view.empty() ? Step::kRender : Step::kReport));
-  TELESTRAIN_RETURN_IF_ERROR(RenderResults(results, options, console, out));
+  const auto before = ReportedPictures(results);
+  const Status rendered = RenderResults(results, options, console, out);
+  // A report stays as long as the pictures in it are the ones beside it.
+  if (before != ReportedPictures(results))
+    TELESTRAIN_RETURN_IF_ERROR(RemoveOutputsFrom(results, Step::kReport));
+  TELESTRAIN_RETURN_IF_ERROR(rendered);
   console.Say("render     pictures in " + (out.empty() ? results / "pictures" : out).string());
   return {};
 }

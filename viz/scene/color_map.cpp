@@ -86,7 +86,9 @@ ColorScale ScaleFor(std::vector<double> values, double tail) {
   double step = RoundStep((high - low) / kMostIntervals);
   if (std::ceil(high / step) - std::floor(low / step) > kMostIntervals + 1)
     step = RoundStep(2 * step);
-  const double first = std::floor(low / step + 1e-9), end = std::ceil(high / step - 1e-9);
+  // Where values may lie beyond the ends, a little more of them does not cost a whole step.
+  const double over = tail > 0 ? 0.05 : 1e-9;
+  const double first = std::floor(low / step + over), end = std::ceil(high / step - over);
   for (double i = first; i <= end; ++i) scale.ticks.push_back(i * step);
   scale.low = scale.ticks.front();
   scale.high = scale.ticks.back();

@@ -94,11 +94,12 @@ std::vector<std::size_t> Thinned(const Surface& surface, double apart_mm) {
   return kept;
 }
 
-// Whether the surface moves away from the axis on the whole: arrows that begin at their point are
-// hidden by the pipe when it does not, arrows that end there when it does.
-bool MovesOutwards(const Pipe& pipe, const Surface& surface) {
+// Whether a group's surface moves away from the axis on the whole: arrows that begin at their point
+// are hidden by the pipe when it does not, arrows that end there when it does.
+bool MovesOutwards(const Pipe& pipe, const Surface& surface, int group) {
   double sum = 0;
   for (std::size_t i = 0; i < surface.displacement_mm.size(); ++i) {
+    if (surface.group[i] != group) continue;
     const Eigen::Vector3d& point = surface.points_in_array_mm[i];
     const Eigen::Vector3d foot =
         pipe.axis_point_in_array_mm + Along_mm(pipe, point) * pipe.axis_in_array;
@@ -199,13 +200,16 @@ std::vector<Part> DisplacementParts(const Scene& scene, std::size_t state, doubl
   part.lit = true;
   if (surface.displacement_mm.empty()) return {};
   constexpr double kApart = 0.22, kThickness = 0.016;  // shares of the pipe's radius
-  const bool outwards = MovesOutwards(*scene.pipe, surface);
+  std::map<int, bool> outwards;
+  for (const int group : surface.group)
+    if (!outwards.contains(group)) outwards[group] = MovesOutwards(*scene.pipe, surface, group);
   for (const std::size_t i : Thinned(surface, kApart * scene.pipe->radius_mm)) {
     const Eigen::Vector3d drawn = factor * surface.displacement_mm[i];
     // The reference state's own displacement is rounding.
     if (surface.displacement_mm[i].norm() < 1e-6) continue;
     const Eigen::Vector3d& point = surface.points_in_array_mm[i];
-    const Segment arrow = outwards ? Segment{point, point + drawn} : Segment{point - drawn, point};
+    const Segment arrow =
+        outwards[surface.group[i]] ? Segment{point, point + drawn} : Segment{point - drawn, point};
     part.mesh.Append(Arrow(arrow, kThickness * scene.pipe->radius_mm));
   }
   if (part.mesh.faces.empty()) return {};
