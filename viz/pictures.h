@@ -72,6 +72,9 @@ Result<Picture> DrawPipe(const Scene& scene, const RenderOptions& options);
 Result<Picture> DrawPipeStrain(const Scene& scene, const RenderOptions& options,
                                const PictureChoices& choices = {});
 
+// One picture of a rotation of the array about its upward axis; all have one scale.
+Result<Picture> DrawTurntable(const Scene& scene, const RenderOptions& options, double azimuth_deg);
+
 // Pictures side by side, as large as they fit, each with its name above.
 struct NamedImage {
   std::string name;

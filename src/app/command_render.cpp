@@ -2,6 +2,7 @@
 
 #include "app/command.h"
 #include "app/render_arguments.h"
+#include "app/results_folder.h"
 #include "app/steps.h"
 
 // telestrain render RESULTS
@@ -27,11 +28,20 @@ class RenderCommand : public Command {
   }
   Result<int> Run(Console& console) override {
     TELESTRAIN_ASSIGN_OR_RETURN(const RenderOptions options, ReadOptions(arguments_));
-    TELESTRAIN_RETURN_IF_ERROR(RenderStep(results_, options, arguments_.out, console));
+    TELESTRAIN_RETURN_IF_ERROR(arguments_.Film().empty()
+                                   ? RenderStep(results_, options, arguments_.out, console)
+                                   : Film(options, console));
     return 0;
   }
 
  private:
+  Status Film(const RenderOptions& options, Console& console) const {
+    TELESTRAIN_RETURN_IF_ERROR(RequireConsistent(results_, Step::kRender));
+    if (!arguments_.turntable.empty())
+      return RenderTurntable(results_, options, arguments_.video, arguments_.turntable, console);
+    return RenderStates(results_, options, arguments_.video, arguments_.states, console);
+  }
+
   std::string results_;
   RenderArguments arguments_;
 };

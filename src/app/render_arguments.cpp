@@ -50,10 +50,29 @@ void RenderArguments::AddTo(CLI::App& app) {
       ->capture_default_str();
   app.add_option("--out", out,
                  "folder, or a file in .png for one view (default: RESULTS/pictures)");
+  AddFilmsTo(app);
+}
+
+void RenderArguments::AddFilmsTo(CLI::App& app) {
+  auto* turn = app.add_option("--turntable", turntable,
+                              "make a film in .mp4 or .gif of the array turning once");
+  auto* cycle = app.add_option("--states", states,
+                               "make a film in .mp4 or .gif of the strain in every state, in one "
+                               "range of colours");
+  turn->excludes(cycle);
+  for (auto* film : {turn, cycle})
+    for (const char* other : {"--view", "--out", "--transparent"})
+      film->excludes(app.get_option(other));
+  app.add_option("--seconds", video.seconds, "length of the film (default: 8; 1.5 per state)");
+  app.add_option("--fps", video.frames_per_second,
+                 "frames per second of the film (default: 20; 10 in .gif)");
 }
 
 Result<RenderOptions> ReadOptions(const RenderArguments& arguments) {
   RenderOptions options;
+  if (!arguments.Film().empty()) {
+    TELESTRAIN_ASSIGN_OR_RETURN(options, DefaultFrame(arguments.Film()));
+  }
   if (!arguments.size.empty())
     TELESTRAIN_RETURN_IF_ERROR(ReadSize(arguments.size, options));
   else if (arguments.dpi > 0) {  // the same paper

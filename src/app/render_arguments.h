@@ -5,6 +5,7 @@
 
 #include "base/result.h"
 #include "viz/render.h"
+#include "viz/video.h"
 
 namespace CLI {
 class App;
@@ -19,8 +20,15 @@ struct RenderArguments {
   std::vector<double> range;  // two, or none
   int dpi = 0;
   bool transparent = false;
+  std::string turntable, states;  // files of films; at most one is given
+  VideoOptions video;
 
   void AddTo(CLI::App& app);
+  // The film to make; empty: pictures.
+  const std::string& Film() const { return turntable.empty() ? states : turntable; }
+
+ private:
+  void AddFilmsTo(CLI::App& app);
 };
 
 // Fails (kUsage) with the option and its limits.

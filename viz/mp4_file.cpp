@@ -1,0 +1,72 @@
+#include <opencv2/core.hpp>
+#include <opencv2/core/utils/logger.hpp>
+#include <opencv2/videoio.hpp>
+
+#include "base/check.h"
+#include "base/files.h"
+#include "viz/video_file.h"
+
+namespace telestrain::viz {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Mp4File : public VideoFile {
+ public:
+  explicit Mp4File(fs::path path) : path_(std::move(path)), part_(path_.string() + ".part.mp4") {}
+  ~Mp4File() override {
+    writer_.release();
+    std::error_code code;
+    fs::remove(part_, code);
+  }
+
+  Status Open(int width_px, int height_px, int fps) {
+    size_ = {width_px, height_px};
+    const int h264 = cv::VideoWriter::fourcc('a', 'v', 'c', '1');
+    // OpenCV tells of a missing encoder on stderr only; the caller gets it as an error.
+    const auto level = cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+    const bool is_open = writer_.open(part_.string(), cv::CAP_FFMPEG, h264, fps, size_);
+    cv::utils::logging::setLogLevel(level);
+    if (is_open) return {};
+    return OutputFailed(path_.string() +
+                        ": cannot be opened for writing, or OpenCV's FFmpeg has no H.264 encoder "
+                        "(Debian packages libopencv-videoio406, libx264); a .gif needs none");
+  }
+
+  Status Add(const RgbImage& frame) override {
+    TELESTRAIN_CHECK(frame.width_px == size_.width && frame.height_px == size_.height,
+                     "the frames of a film have one size");
+    cv::Mat bgr(size_, CV_8UC3);
+    for (std::size_t i = 0; i < frame.rgb.size(); i += 3)
+      for (std::size_t c = 0; c < 3; ++c) bgr.data[i + c] = frame.rgb[i + 2 - c];
+    writer_.write(bgr);
+    return {};
+  }
+
+  Status Close() override {
+    writer_.release();
+    TELESTRAIN_ASSIGN_OR_RETURN(const std::string bytes, ReadFile(part_));
+    if (bytes.empty()) return OutputFailed(path_.string() + ": the encoder wrote nothing");
+    return WriteFileAtomically(path_, bytes);
+  }
+
+ private:
+  fs::path path_, part_;
+  cv::Size size_;
+  cv::VideoWriter writer_;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<VideoFile>> OpenMp4(const fs::path& path, int width_px, int height_px,
+                                           int fps) {
+  if (width_px % 2 != 0 || height_px % 2 != 0)
+    return Error{ErrorKind::kUsage, path.string() + ": an MP4 needs even sides, found " +
+                                        std::to_string(width_px) + " x " +
+                                        std::to_string(height_px) + " px"};
+  auto file = std::make_unique<Mp4File>(path);
+  TELESTRAIN_RETURN_IF_ERROR(file->Open(width_px, height_px, fps));
+  return std::unique_ptr<VideoFile>(std::move(file));
+}
+
+}  // namespace telestrain::viz
