@@ -27,7 +27,8 @@ std::vector<Part> PartsToTurn(const Scene& scene) {
     if (!scene.pipe->states.empty()) add(SurfaceParts(scene, scene.pipe->largest_state));
     add(GaugeParts(scene));
   }
-  add(FrameParts(scene, PointsOf(parts)));
+  for (const Part& part : FrameParts(scene, PointsOf(parts)))
+    if (part.name != "scale bar") parts.push_back(part);  // comes with its length
   return parts;
 }
 
@@ -70,14 +71,18 @@ Result<Picture> DrawTurntable(const Scene& scene, const RenderOptions& options,
   const SceneAxes axes = AxesOf(scene);
   const ViewDirection direction{azimuth_deg, kElevation_deg};
   const std::vector<Part> parts = PartsToTurn(scene);
+  std::vector<Eigen::Vector3d> extent = PointsOf(parts);
+  const ScaleBar bar = ScaleBarBelow(extent, axes, 0.3);
+  extent.push_back(bar.start_in_array_mm);
   const ParallelCamera camera =
-      FitCamera(SweptPoints(PointsOf(parts), axes), axes, direction, box, canvas->Px(5));
+      FitCamera(SweptPoints(extent, axes), axes, direction, box, canvas->Px(11));
   vtkRenderer* renderer = canvas->AddPanel("turntable", box, camera);
   std::optional<ValueColors> strain;
   if (scene.pipe && !scene.pipe->states.empty())
     strain.emplace(kAxialStrain, ValueColorMap(StrainScale(scene.pipe->Largest().surface)));
   AddParts(renderer, parts, strain ? &*strain : nullptr, canvas->Px(1));
   NameViews(canvas.get(), "turntable", scene);
+  AddScaleBar(canvas.get(), "turntable", renderer, bar);
   TELESTRAIN_RETURN_IF_ERROR(AddArrayKey(canvas.get(), scene, direction));
   return canvas->Finish();
 }
