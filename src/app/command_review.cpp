@@ -1,5 +1,5 @@
 #include <CLI/CLI.hpp>
-#include <algorithm>
+#include <set>
 
 #include "app/command.h"
 #include "app/results_folder.h"
@@ -7,29 +7,37 @@
 #include "base/files.h"
 #include "base/json_file.h"
 #include "base/numbers.h"
+#include "viz/picture_set.h"
 #include "viz/review/review_page.h"
 #include "viz/scene_from_results.h"
 
 // telestrain review RESULTS
 // Draws the standard pictures first where they are not all there.
-//   review     /data/results/review.html, 7.6 MB: scene with 289 parts, 3 pictures, 37 tables
+//   review     /data/results/review.html, 9.2 MB: scene with 164 parts, 14 pictures, 37 tables
 
 namespace telestrain {
 namespace {
 
 namespace fs = std::filesystem;
 
+// The standard pictures in the order in which they are drawn. The contact sheet shows them once
+// more and is left out.
 Result<std::vector<viz::ReviewPicture>> ReadPictures(const fs::path& folder) {
-  std::vector<fs::path> paths;
+  std::set<std::string> names;
   std::error_code code;
   for (fs::directory_iterator entry(folder, code), end; !code && entry != end;
        entry.increment(code))
-    if (entry->path().extension() == ".png") paths.push_back(entry->path());
-  std::sort(paths.begin(), paths.end());
+    if (const std::string name = entry->path().filename().string(); viz::IsStandardPicture(name))
+      names.insert(name);
   std::vector<viz::ReviewPicture> pictures;
-  for (const fs::path& path : paths) {
-    TELESTRAIN_ASSIGN_OR_RETURN(std::string png, ReadFile(path));
-    pictures.push_back({path.filename().string(), std::move(png)});
+  for (const viz::PictureKind& kind : viz::PictureKinds()) {
+    const std::string stem = kind.name;
+    for (const std::string& name : names) {
+      const bool of_state = kind.of_every_state && name.starts_with(stem + "_");
+      if (kind.draw == nullptr || (name != stem + ".png" && !of_state)) continue;
+      TELESTRAIN_ASSIGN_OR_RETURN(std::string png, ReadFile(folder / name));
+      pictures.push_back({name, std::move(png)});
+    }
   }
   return pictures;
 }

@@ -34,7 +34,7 @@ class ReviewVerb : public SessionCopy {
 };
 
 TEST_F(ReviewVerb, WritesOneFileWithTheSameBytesEveryTime) {
-  MustRun({"render"});
+  ASSERT_EQ(RunTelestrain({"render", results().string()}).exit_code, 0);
   Report();
   fs::remove(results() / "pictures" / "top.png");  // is drawn again, and the report stays
   const std::string report = ReadAll(results() / "report.pdf");

@@ -111,6 +111,7 @@ async function checkClicks(browser) {
   // The highlighted frame and squares are alike about the board's middle to within a square.
   const square = await browser.evaluate('0.5 / review.view.camera.mmPerPx');
   assert.ok(Math.hypot(changed.x - x, changed.y - y) < square, 'the highlight is elsewhere');
+  assertSameColor(await browser.evaluate('colorAt([-9.5, -1.5, 5])'), [214, 0, 107]);
   await save(browser, 'selected');
   await browser.click(...place);
   assert.match(await browser.evaluate(text('facts')), /calibration\/low\.png/, 'what lies behind');

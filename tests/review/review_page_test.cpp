@@ -132,6 +132,14 @@ TEST(ReviewPage, PicturesAreInside) {
   EXPECT_TRUE(Holds(page, "src=\"data:image/png;base64," + viz::Base64(SmallPng()) + "\""));
 }
 
+TEST(ReviewPage, PicturesOfAStateAreNamedByItsImage) {
+  ReviewContent content = MadeUpContent();
+  content.pictures = {{"pipe_strain_001.png", SmallPng()}, {"of_my_own.png", SmallPng()}};
+  const std::string page = PageOf(content);
+  EXPECT_TRUE(Holds(page, ", pipe/pipe_001.png</figcaption>"));
+  EXPECT_TRUE(Holds(page, "<figcaption>Of my own</figcaption>"));
+}
+
 TEST(ReviewPage, TheSameContentGivesTheSameBytes) {
   EXPECT_EQ(PageOf(MadeUpContent()), PageOf(MadeUpContent()));
 }

@@ -39,6 +39,12 @@ class Review {
       button.onclick = () => this.look(index);
       byId('directions').append(button);
     });
+    const fit = element('button', 'Fit', {type: 'button', title: 'Key F'});
+    fit.onclick = () => {
+      this.view.fit();
+      this.view.render();
+    };
+    byId('directions').append(fit);
   }
 
   look(index) {

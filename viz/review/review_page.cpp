@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 
+#include "base/numbers.h"
 #include "viz/review/html_text.h"
 #include "viz/review/part_json.h"
 #include "viz/review/result_tables.h"
@@ -64,19 +66,33 @@ std::string HashesHtml(const ReviewContent& content) {
   return html;
 }
 
-std::string CaptionOf(const std::string& name) {
+// "pipe_strain_003.png" is the pipe's state 3, which the caption names by its image.
+std::string CaptionOf(const Scene& scene, const std::string& file_name) {
   static const std::map<std::string, std::string> kCaptions = {
-      {"array.png", "Array: the views, the boards of the target and the pipe"},
-      {"targets.png", "Target poses with their residuals and the ruler with its errors"},
-      {"pipe_strain.png", "Axial strain on the measured surface of the pipe"}};
-  const auto known = kCaptions.find(name);
-  return known != kCaptions.end() ? known->second : Spaced(name.substr(0, name.rfind('.')));
+      {"array", "Array: the views, the boards of the target and the pipe"},
+      {"side", "Array from the side"},
+      {"top", "Array from above"},
+      {"targets", "Target poses with their residuals and the ruler with its errors"},
+      {"pipe", "Pipe with measured displacements and gauges"},
+      {"pipe_strain", "Strain on the measured surface of the pipe"},
+      {"residuals", "Residuals over the sensor"}};
+  const std::string stem = file_name.substr(0, file_name.rfind('.'));
+  if (const auto known = kCaptions.find(stem); known != kCaptions.end()) return known->second;
+  const std::size_t bar = stem.rfind('_');
+  const auto kind = kCaptions.find(stem.substr(0, bar));
+  const std::optional<int> state =
+      bar == std::string::npos ? std::nullopt : ParseInt(stem.substr(bar + 1));
+  if (kind == kCaptions.end() || !state || *state < 0) return Spaced(stem);
+  const auto index = static_cast<std::size_t>(*state);
+  const bool has_name = scene.pipe && index < scene.pipe->states.size();
+  return kind->second +
+         (has_name ? ", " + scene.pipe->states[index].image : ", state " + std::to_string(index));
 }
 
 std::string PicturesHtml(const ReviewContent& content) {
   std::string html;
   for (const ReviewPicture& picture : content.pictures) {
-    const std::string caption = HtmlText(CaptionOf(picture.name));
+    const std::string caption = HtmlText(CaptionOf(content.scene, picture.name));
     html += "<figure><button type=\"button\" title=\"Enlarge\"><img alt=\"" + caption +
             "\" src=\"data:image/png;base64," + Base64(picture.png) + "\"></button><figcaption>" +
             caption + "</figcaption></figure>\n";

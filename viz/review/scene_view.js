@@ -15,6 +15,7 @@ class SceneView {
     this.renderer = core.vtkRenderer.newInstance({background: [1, 1, 1]});
     this.window = core.vtkRenderWindow.newInstance();
     this.window.addRenderer(this.renderer);
+    this.window.setNumberOfLayers(2);
     this.surface = this.window.newAPISpecificView('WebGL');
     this.surface.setContainer(container);
     this.window.addView(this.surface);
@@ -34,12 +35,12 @@ class SceneView {
     this.renderer.addLight(light);
   }
 
-  actorOf(data) {
+  actorOf(data, renderer = this.renderer) {
     const mapper = vtk.Rendering.Core.vtkMapper.newInstance();
     mapper.setInputData(data);
     const actor = vtk.Rendering.Core.vtkActor.newInstance();
     actor.setMapper(mapper);
-    this.renderer.addActor(actor);
+    renderer.addActor(actor);
     return actor;
   }
 
@@ -67,13 +68,16 @@ class SceneView {
 
   widthPx(widthPt) { return Math.max(1, widthPt * 96 / 72 * devicePixelRatio); }
 
-  // Edges of the selected part in a colour that nothing else has, over everything.
+  // The selected part's lines, or else the edges of its faces, in a colour that nothing else has
+  // and in a layer over everything.
   addHighlight() {
+    const above = vtk.Rendering.Core.vtkRenderer.newInstance(
+        {layer: 1, interactive: false, preserveColorBuffer: true});
+    above.setActiveCamera(this.renderer.getActiveCamera());
+    this.window.addRenderer(above);
     const data = vtk.Common.DataModel.vtkPolyData.newInstance();
-    const actor = this.actorOf(data);
+    const actor = this.actorOf(data, above);
     actor.getMapper().setScalarVisibility(false);
-    actor.getMapper().setResolveCoincidentTopologyToPolygonOffset();
-    actor.getMapper().setRelativeCoincidentTopologyLineOffsetParameters(-4, -4);
     const property = actor.getProperty();
     property.setLighting(false);
     property.setColor(0.84, 0, 0.42);
@@ -93,8 +97,9 @@ class SceneView {
     actor.setVisibility(part !== null && this.isShown(part));
     if (part === null) return;
     const cells = [];
-    forEachFace(part, (face) => face.forEach((from, k) =>
-        cells.push(2, from, face[(k + 1) % face.length])));
+    if (part.lines.length === 0)
+      forEachFace(part, (face) => face.forEach((from, k) =>
+          cells.push(2, from, face[(k + 1) % face.length])));
     for (let at = 0; at < part.lines.length; at += 2)
       cells.push(2, part.lines[at], part.lines[at + 1]);
     data.getPoints().setData(part.points, 3);
