@@ -49,13 +49,13 @@ class ExportCommand : public Command {
         ->delimiter(',')
         ->check(CLI::IsMember({"calibration", "glb", "paraview", "stl", "ply"}))
         ->capture_default_str();
-    state_option_ = app.add_option(
-        "--state", state_,
-        "which pipe state goes into glb, stl and ply: the number in pipe_NNN.vtp (default: the "
-        "one with the largest strain)");
+    app.add_option("--state", state_,
+                   "which state of the pipe goes into glb, stl and ply: its number from 0, its "
+                   "image or 'largest'")
+        ->capture_default_str();
     app.add_option("--quantity", quantity_,
-                   "what colours the surface in glb: a name in pipe_NNN.vtp (default: "
-                   "axial_microstrain)");
+                   "what colours the surface in glb: a point array of pipe_NNN.vtp "
+                   "(default: axial strain)");
   }
   Result<int> Run(Console& console) override {
     TELESTRAIN_RETURN_IF_ERROR(CheckOptions());
@@ -78,7 +78,7 @@ class ExportCommand : public Command {
                       "another folder");
     if (!quantity_.empty() && !Wants("glb"))
       return Error{ErrorKind::kUsage, "--quantity colours the scene of --format glb only"};
-    if (*state_option_ && !Wants("glb") && !Wants("stl") && !Wants("ply"))
+    if (state_ != "largest" && !Wants("glb") && !Wants("stl") && !Wants("ply"))
       return Error{ErrorKind::kUsage, "--state is for --format glb, stl and ply only"};
     return {};
   }
@@ -98,7 +98,7 @@ class ExportCommand : public Command {
     for (const auto& [name, format] : kSceneFormats)
       if (Wants(name)) choice.formats.insert(format);
     if (choice.formats.empty()) return {};
-    if (*state_option_) choice.state = state_;
+    choice.state = state_;
     choice.quantity = quantity_;
     TELESTRAIN_RETURN_IF_ERROR(RequireConsistent(results_, Step::kRender));
     TELESTRAIN_ASSIGN_OR_RETURN(const viz::Scene scene, viz::SceneFromResults(results_));
@@ -124,10 +124,8 @@ class ExportCommand : public Command {
     return 0;
   }
 
-  std::string results_, out_, quantity_;
+  std::string results_, out_, quantity_, state_ = "largest";
   std::vector<std::string> formats_ = {"calibration"};
-  int state_ = 0;
-  CLI::Option* state_option_ = nullptr;
 };
 
 }  // namespace

@@ -15,7 +15,7 @@ using testing::SmallScene;
 
 DeskModel Model() {
   const Scene scene = SmallScene();
-  return {"small", scene, *ChooseValues(scene, std::nullopt, "")};
+  return {"small", scene, *ChooseValues(scene, "largest", "")};
 }
 
 TEST(DeskModel, ShowsThePartsOfOneStateAndOfTheVisibleLayers) {
@@ -36,10 +36,25 @@ TEST(DeskModel, StatesEndAndQuantitiesGoRound) {
   model.StepState(-9);
   EXPECT_EQ(model.shown()->state, 0U);
   model.StepQuantity(-1);
-  EXPECT_EQ(model.shown()->quantity.key, "hoop_microstrain");
-  EXPECT_EQ(model.shown()->scale.low, ValueScale(*model.scene().pipe, "hoop_microstrain").low);
+  EXPECT_EQ(model.shown()->quantity.key, "sigma_um");
+  EXPECT_EQ(model.shown()->scale.low, ValueScale(*model.scene().pipe, "sigma_um").low);
   model.StepQuantity(1);
   EXPECT_EQ(model.shown()->quantity.key, "axial_microstrain");
+}
+
+TEST(DeskModel, ColoursGoOverAllStatesOrOverTheShownOne) {
+  DeskModel model = Model();
+  const Pipe& pipe = *model.scene().pipe;
+  EXPECT_EQ(model.Bars()[0].note, "range of all states");
+  model.ToggleRange();
+  for (int state = 1; state < 3; ++state) {
+    model.ShowState(state);
+    const auto& surface = pipe.states[static_cast<std::size_t>(state)].surface;
+    EXPECT_EQ(model.shown()->scale.ticks, ValueScale({&surface}, "axial_microstrain").ticks);
+  }
+  EXPECT_EQ(model.Bars()[0].note, "range of this state");
+  model.ToggleRange();
+  EXPECT_EQ(model.shown()->scale.ticks, ValueScale(pipe, "axial_microstrain").ticks);
 }
 
 TEST(DeskModel, TellsTheStrainOfTheStateWithItsUncertainty) {

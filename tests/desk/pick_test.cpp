@@ -13,7 +13,7 @@ using testing::SmallScene;
 
 DeskModel Model() {
   const Scene scene = SmallScene();
-  return {"small", scene, *ChooseValues(scene, std::nullopt, "")};
+  return {"small", scene, *ChooseValues(scene, "largest", "")};
 }
 
 // Straight down at x, y.
@@ -42,7 +42,7 @@ TEST(PickAt, LooksThroughTranslucentBoxesAtTheSurfaceAndTellsItsNumbers) {
   EXPECT_EQ(pick->point_in_array_mm, surface.points_in_array_mm[index]);
   EXPECT_EQ(FactAt(model, *pick, "axial strain"), "683.0 \u00b5\u03b5");
   EXPECT_EQ(FactAt(model, *pick, "hoop strain"), "\u2212204.9 \u00b5\u03b5");
-  EXPECT_EQ(FactAt(model, *pick, "its uncertainty (k = 1)"), "0.1100 \u00b5m");
+  EXPECT_EQ(FactAt(model, *pick, "standard uncertainty along the pipe"), "0.1100 \u00b5m");
   EXPECT_EQ(FactAt(model, *pick, "displacement"), "\u22127.17, 0.00, 0.10 \u00b5m");
   EXPECT_TRUE(FactAt(model, *pick, "position").ends_with(" mm"));
 }

@@ -39,6 +39,7 @@ TEST(TelestrainView, BadResultsEndWith3AndBadWordsWith2) {
   const auto results = Results("ViewBadWords").string();
   EXPECT_EQ(View({}).exit_code, 2);
   EXPECT_EQ(View({results, "--view", "5"}).exit_code, 2);
+  EXPECT_EQ(View({results, "--size", "900"}).exit_code, 2);
   const ProgramRun state = View({results, "--state", "7"});
   EXPECT_EQ(state.exit_code, 2);
   EXPECT_NE(state.err.find("--state 7"), std::string::npos) << state.err;
@@ -61,8 +62,8 @@ TEST(TelestrainView, ScreenshotIsTheSameEveryTimeAndAnotherFromAnotherSide) {
   const auto results = Results("ViewScreenshot");
   const auto shoot = [&](const std::string& name, const std::string& view) {
     const auto path = results / name;
-    const ProgramRun run = View({results.string(), "--view", view, "--width-px", "900",
-                                 "--height-px", "600", "--screenshot", path.string()});
+    const ProgramRun run = View(
+        {results.string(), "--view", view, "--size", "900x600", "--screenshot", path.string()});
     EXPECT_EQ(run.exit_code, 0) << run.err;
     EXPECT_EQ(run.err, "");
     return testing_support::ReadAll(path);

@@ -28,7 +28,7 @@ using testing::SmallScene;
 constexpr char kSurface[] = "state 1 (cycle 1, step 1): surface A";
 
 std::string BytesOf(const Scene& scene, const std::string& quantity = "") {
-  const auto shown = ChooseValues(scene, std::nullopt, quantity);
+  const auto shown = ChooseValues(scene, "largest", quantity);
   EXPECT_TRUE(shown.ok());
   return GlbBytes(PartsOf(scene).parts, AxesOf(scene), *shown);
 }

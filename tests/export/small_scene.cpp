@@ -34,6 +34,7 @@ void AddPatch(int group, std::size_t state, Surface* surface) {
       surface->sigma_um.push_back(0.1 + 0.01 * row);
       surface->values[0].values.push_back(strain);
       surface->values[1].values.push_back(-0.3 * strain);
+      surface->values[2].values.push_back(surface->sigma_um.back());
       surface->group.push_back(group);
     }
   for (int row = 0; row + 1 < kRows; ++row)
@@ -51,7 +52,8 @@ PipeState State(std::size_t index) {
   state.axial_microstrain = 800 * kLoads[index];
   state.standard_uncertainty_microstrain = 11.3;
   state.surface.values = {{{"axial_microstrain", "axial strain", "\u00b5\u03b5"}, {}},
-                          {{"hoop_microstrain", "hoop strain", "\u00b5\u03b5"}, {}}};
+                          {{"hoop_microstrain", "hoop strain", "\u00b5\u03b5"}, {}},
+                          {{"sigma_um", "standard uncertainty along the pipe", "\u00b5m"}, {}}};
   AddPatch(0, index, &state.surface);
   AddPatch(1, index, &state.surface);
   if (index == 1) state.surface.values[1].values[0] = std::numeric_limits<double>::quiet_NaN();

@@ -127,6 +127,7 @@ TEST(Ply, OpensInVtk) {
 TEST(Ply, LeavesOutWhatWasNotMeasured) {
   Pipe pipe = *SmallScene().pipe;
   pipe.states[1].surface.sigma_um.clear();
+  pipe.states[1].surface.values.pop_back();
   pipe.states[1].surface.displacement_mm.clear();
   const auto columns = ColumnsOf(PlyBytes(pipe, 1));
   EXPECT_EQ(columns.size(), 5U);

@@ -40,6 +40,8 @@ bool DeskControl::Key(const std::string& symbol) {
     model_->StepState(symbol == "Left" ? -1 : 1);
   } else if (symbol == "Up" || symbol == "Down") {
     model_->StepQuantity(symbol == "Up" ? -1 : 1);
+  } else if (key == 'c') {
+    model_->ToggleRange();
   } else if (key == 'h') {
     window_->ToggleHelp();
   } else if (key == 's') {

@@ -1,10 +1,13 @@
 #include <vtkRenderWindowInteractor.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
 #include <exception>
 #include <iostream>
 
 #include "base/files.h"
+#include "base/numbers.h"
 #include "viz/desk/desk_control.h"
 #include "viz/desk/desk_style.h"
 #include "viz/png_bytes.h"
@@ -21,17 +24,17 @@ namespace fs = std::filesystem;
 constexpr int kUsageExit = 2, kDefectExit = 70;
 
 constexpr const char* kFooter =
-    "Keys: 1 array, 2 side, 3 top, 4 pipe; left and right: states; up and down: quantities; V O B "
-    "R P\nM D G U F: layers; S saves the window as PNG in the working folder; H lists all; Q "
+    "Keys: 1 array, 2 side, 3 top, 4 pipe; left and right: states; up and down: quantities; C: "
+    "colours\nof all states or of one; V O B R P M D G U F: layers; S saves the window as PNG in "
+    "the working folder; H lists all; Q "
     "quits.\n"
     "Exit codes: 0 done, 2 wrong usage, 3 bad results, 5 no display or a file that cannot be "
     "written,\n70 a defect of the program.\n"
     "Example: telestrain-view results --state 3 --quantity hoop_microstrain";
 
 struct Arguments {
-  std::string results, quantity, screenshot;
-  std::optional<int> state;
-  int view = 1, width_px = 1440, height_px = 900;
+  std::string results, quantity, screenshot, state = "largest", size = "1440x900";
+  int view = 1;
   std::vector<std::string> layers;
 
   void AddTo(CLI::App& app);
@@ -42,24 +45,33 @@ void Arguments::AddTo(CLI::App& app) {
   app.add_option("--view", view, "1 array, 2 side, 3 top, 4 pipe")
       ->check(CLI::Range(1, 4))
       ->capture_default_str();
-  app.add_option("--state", state,
-                 "pipe state: the number in pipe_NNN.vtp (default: the one with the largest "
-                 "strain)");
+  app.add_option("--state", state, "state of the pipe: its number from 0, its image or 'largest'")
+      ->capture_default_str();
   app.add_option("--quantity", quantity,
-                 "what colours the surface: a name in pipe_NNN.vtp (default: axial_microstrain)");
+                 "what colours the pipe: a point array of pipe_NNN.vtp (default: axial strain)");
   std::vector<std::string> names;
   for (const viz::Layer layer : viz::kAllLayers) names.push_back(NameOf(layer));
   app.add_option("--layers", layers, "what is visible at first, separated by commas")
       ->delimiter(',')
       ->check(CLI::IsMember(names));
-  app.add_option("--width-px", width_px, "of the window")
-      ->check(CLI::Range(640, 8192))
-      ->capture_default_str();
-  app.add_option("--height-px", height_px, "of the window")
-      ->check(CLI::Range(480, 8192))
-      ->capture_default_str();
+  app.add_option("--size", size, "WIDTHxHEIGHT of the window in px")->capture_default_str();
   app.add_option("--screenshot", screenshot,
                  "draw the window once, save it as this PNG file and leave");
+}
+
+// "1440x900".
+Result<std::array<int, 2>> SizeOf(const std::string& text) {
+  constexpr int kLeast_px = 480, kMost_px = 8192;  // below, the panel has no room
+  const auto x = text.find('x');
+  const auto width = x == std::string::npos ? std::nullopt : ParseInt(text.substr(0, x));
+  const auto height = x == std::string::npos ? std::nullopt : ParseInt(text.substr(x + 1));
+  if (width && height && std::min(*width, *height) >= kLeast_px &&
+      std::max(*width, *height) <= kMost_px)
+    return std::array{*width, *height};
+  return Error{ErrorKind::kUsage,
+               "--size takes WIDTHxHEIGHT in px from 480x480 to 8192x8192, as "
+               "in 1440x900, found '" +
+                   text + "'"};
 }
 
 Result<viz::DeskModel> ModelOf(const Arguments& arguments) {
@@ -89,9 +101,10 @@ Status Screenshot(viz::DeskWindow* window, const std::string& path) {
 }
 
 Status View(const Arguments& arguments) {
+  TELESTRAIN_ASSIGN_OR_RETURN(const auto size_px, SizeOf(arguments.size));
   TELESTRAIN_ASSIGN_OR_RETURN(viz::DeskModel model, ModelOf(arguments));
-  TELESTRAIN_ASSIGN_OR_RETURN(
-      const auto window, viz::DeskWindow::Open(&model, arguments.width_px, arguments.height_px));
+  TELESTRAIN_ASSIGN_OR_RETURN(const auto window,
+                              viz::DeskWindow::Open(&model, size_px[0], size_px[1]));
   window->LookFrom(static_cast<viz::StandardView>(arguments.view));
   if (!arguments.screenshot.empty()) return Screenshot(window.get(), arguments.screenshot);
   viz::DeskControl control(&model, window.get(), fs::current_path());

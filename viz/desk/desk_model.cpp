@@ -22,7 +22,22 @@ DeskModel::DeskModel(std::string title, Scene scene, std::optional<ShownValues> 
 int DeskModel::States() const { return shown_ ? static_cast<int>(scene_.pipe->states.size()) : 0; }
 
 void DeskModel::ShowState(int state) {
-  if (shown_) shown_->state = static_cast<std::size_t>(std::clamp(state, 0, States() - 1));
+  if (!shown_) return;
+  shown_->state = static_cast<std::size_t>(std::clamp(state, 0, States() - 1));
+  Rescale();
+}
+
+void DeskModel::ToggleRange() {
+  own_range_ = !own_range_;
+  Rescale();
+}
+
+void DeskModel::Rescale() {
+  if (!shown_) return;
+  const Pipe& pipe = *scene_.pipe;
+  const std::string& key = shown_->quantity.key;
+  shown_->scale =
+      own_range_ ? ValueScale({&pipe.states[shown_->state].surface}, key) : ValueScale(pipe, key);
 }
 
 void DeskModel::StepState(int by) {
@@ -36,7 +51,7 @@ void DeskModel::StepQuantity(int by) {
   while (quantities_[static_cast<std::size_t>(index)].key != shown_->quantity.key) ++index;
   index = ((index + by) % count + count) % count;
   shown_->quantity = quantities_[static_cast<std::size_t>(index)];
-  shown_->scale = ValueScale(*scene_.pipe, shown_->quantity.key);
+  Rescale();
 }
 
 bool DeskModel::Has(Layer layer) const {
@@ -76,13 +91,16 @@ std::vector<Eigen::Vector3d> DeskModel::PointsToFit(StandardView view) const {
 std::vector<ValueBar> DeskModel::Bars() const {
   std::vector<ValueBar> bars;
   if (shown_ && Shows(Layer::kSurface))
-    bars.push_back({TitleOf(shown_->quantity), shown_->scale, ValueColorMap(shown_->scale)});
+    bars.push_back({TitleOf(shown_->quantity),
+                    std::string(own_range_ ? "range of this state" : "range of all states") +
+                        (shown_->scale.clipped ? ", ends open" : ""),
+                    shown_->scale, ValueColorMap(shown_->scale)});
   if (Has(Layer::kBoards) && Shows(Layer::kBoards))
-    bars.push_back(
-        {"board residual RMS / px", ResidualScale(scene_.boards), ResidualColors(scene_.boards)});
+    bars.push_back({"board residual RMS / px", "", ResidualScale(scene_.boards),
+                    ResidualColors(scene_.boards)});
   if (Has(Layer::kRulers) && Shows(Layer::kRulers))
-    bars.push_back(
-        {"ruler length error / \u00b5m", RulerScale(scene_.rulers), RulerColors(scene_.rulers)});
+    bars.push_back({"ruler length error / \u00b5m", "", RulerScale(scene_.rulers),
+                    RulerColors(scene_.rulers)});
   return bars;
 }
 

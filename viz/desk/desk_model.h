@@ -14,6 +14,7 @@ namespace telestrain::viz {
 // A colour bar: what a range of colours stands for.
 struct ValueBar {
   std::string title;  // with the unit: "axial strain / µε"
+  std::string note;   // what the range covers
   ColorScale scale;
   ColorMap colors;
 };
@@ -38,6 +39,9 @@ class DeskModel {
   void ShowState(int state);  // the nearest that there is
   void StepState(int by);
   void StepQuantity(int by);  // round and round
+  // Colours over all states, so that states compare, or over the shown one, so that its pattern is
+  // seen.
+  void ToggleRange();
 
   bool Has(Layer layer) const;  // whether any part belongs to it
   bool Shows(Layer layer) const { return visible_.contains(layer); }
@@ -62,6 +66,9 @@ class DeskModel {
   std::optional<ShownValues> shown_;
   std::vector<Quantity> quantities_;
   std::set<Layer> visible_;
+  bool own_range_ = false;  // of the shown state
+
+  void Rescale();
 };
 
 }  // namespace telestrain::viz

@@ -9,7 +9,7 @@ namespace {
 constexpr Rgb kPanelColor{0.955, 0.960, 0.965}, kLineColor{0.78, 0.80, 0.83},
     kFaint{0.38, 0.41, 0.45}, kActive{0.00, 0.45, 0.70};
 const FlatText kTitle{11, true}, kHeading{9, true, kFaint}, kText{9}, kName{9, false, kFaint},
-    kSmall{8};
+    kSmall{8}, kNote{8, false, kFaint};
 
 // Writes from the top of the box downwards.
 class PanelWriter {
@@ -84,7 +84,8 @@ void PanelWriter::Ticks(const ValueBar& bar) {
     widest = std::max(
         widest, sheet_->TextSize(NumberText(tick, bar.scale.decimals), kSmall).x() + sheet_->Px(4));
   const double apart = width_ / std::max<double>(1, static_cast<double>(ticks.size()) - 1);
-  const auto stride = static_cast<std::size_t>(std::ceil(widest / apart));
+  // The numbers at the ends are moved inwards by half of their width.
+  const auto stride = static_cast<std::size_t>(std::ceil(1.5 * widest / apart));
   const double text_top = top_ - sheet_->Px(2);
   top_ -= sheet_->Px(2) + sheet_->LineHeight(kSmall);
   for (std::size_t i = 0; i < ticks.size(); ++i) {
@@ -100,7 +101,8 @@ void PanelWriter::Ticks(const ValueBar& bar) {
 }
 
 void PanelWriter::Bar(const ValueBar& bar) {
-  Line(bar.title + (bar.scale.clipped ? ", ends open" : ""), kText);
+  Line(bar.title, kText);
+  if (!bar.note.empty()) Line(bar.note, kNote);
   Gap(2);
   const double height = std::round(sheet_->Px(9));
   top_ = std::round(top_ - height);
@@ -206,8 +208,10 @@ std::vector<HotArea> DrawPanel(const DeskModel& model, const PanelContent& conte
   panel.Slider();
   const auto bars = model.Bars();
   if (!bars.empty()) panel.Heading("COLOURS");
-  for (const ValueBar& bar : bars) panel.Bar(bar);
-  if (!bars.empty()) panel.QuantityChoice();
+  for (std::size_t i = 0; i < bars.size(); ++i) {
+    panel.Bar(bars[i]);
+    if (i == 0 && model.Shows(Layer::kSurface)) panel.QuantityChoice();
+  }
   panel.Heading("LAYERS");
   panel.Layers();
   panel.Heading(content.picked_title.empty() ? "POINT AT SOMETHING, CLICK TO KEEP IT" : "PICKED");

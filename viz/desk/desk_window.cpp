@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/numbers.h"
 #include "viz/desk/x_display.h"
 #include "viz/scene/scene_colors.h"
 #include "viz/vtk_messages.h"
@@ -89,14 +90,18 @@ Status DeskWindow::Make(int width_px, int height_px) {
 }
 
 void DeskWindow::Update() {
-  const std::string quantity = model_->shown() ? model_->shown()->quantity.key : "";
   std::optional<ValueColors> colors;
-  if (model_->shown()) colors = ValueColors{quantity, ValueColorMap(model_->shown()->scale)};
+  std::string color_by;
+  if (const auto& shown = model_->shown()) {
+    colors = ValueColors{shown->quantity.key, ValueColorMap(shown->scale)};
+    color_by = shown->quantity.key + " " + FormatShortest(shown->scale.low) + " " +
+               FormatShortest(shown->scale.high);
+  }
   actors_.resize(model_->parts().size());
   for (std::size_t i = 0; i < actors_.size(); ++i) {
     const Part& part = model_->parts()[i];
     const bool visible = model_->IsVisible(part);
-    const bool outdated = !part.values.empty() && colored_by_ != quantity;
+    const bool outdated = !part.values.empty() && colored_by_ != color_by;
     if (outdated || (visible && actors_[i].empty())) {
       for (const auto& actor : actors_[i]) scene_->RemoveActor(actor);
       actors_[i] = ActorsOf(part, colors ? &*colors : nullptr, Px(1));
@@ -104,7 +109,7 @@ void DeskWindow::Update() {
     }
     for (const auto& actor : actors_[i]) actor->SetVisibility(visible);
   }
-  colored_by_ = quantity;
+  colored_by_ = color_by;
 }
 
 PixelBox DeskWindow::PanelBox() const {

@@ -65,7 +65,7 @@ class DeskWindow {
   vtkSmartPointer<vtkCallbackCommand> before_frame_;
   std::unique_ptr<FlatSheet> panel_sheet_, scene_sheet_;
   std::vector<std::vector<vtkSmartPointer<vtkActor>>> actors_;  // by part
-  std::string colored_by_;                                      // the quantity of `actors_`
+  std::string colored_by_;                                      // quantity and range of `actors_`
   std::vector<HotArea> hot_areas_;
   std::optional<Pick> pick_;
   bool kept_ = false, help_ = false;

@@ -18,12 +18,13 @@ namespace {
 constexpr Rgb kPaper{1, 1, 1}, kFaint{0.38, 0.41, 0.45}, kMark{0.85, 0.10, 0.10};
 const FlatText kText{9}, kHint{9, false, kFaint}, kNameText{10, true};
 
-constexpr std::array<std::array<const char*, 2>, 10> kHelp = {{
+constexpr std::array<std::array<const char*, 2>, 11> kHelp = {{
     {"drag", "turn; with Shift or the middle button: move; wheel or right button: zoom"},
     {"click", "keep what the panel tells; click on nothing: let it go"},
     {"1 2 3 4", "the array, from the side, from the top, the pipe without the views"},
     {"\u2190 \u2192", "the state before, the next state"},
     {"\u2191 \u2193", "the quantity before, the next quantity"},
+    {"C", "colours over all states, or over this state alone"},
     {"V O B R P", "views, optics, boards, rulers, nominal pipe"},
     {"M D G U F", "measured surface, displacements, gauges, uncertainty, frame"},
     {"S", "save the window as PNG in the working folder"},

@@ -146,8 +146,6 @@ void AddPointFacts(const DeskModel& model, const Part& part, const Pick& pick,
     const Surface& surface =
         model.scene().pipe->states[static_cast<std::size_t>(part.state)].surface;
     const auto index = IndexInSurface(surface, pick.point_in_array_mm);
-    if (index && !surface.sigma_um.empty())
-      facts->push_back({"its uncertainty (k = 1)", ValueText(surface.sigma_um[*index], "\u00b5m")});
     if (index && !surface.displacement_mm.empty())
       facts->push_back(
           {"displacement", VectorText(1000 * surface.displacement_mm[*index], 2, "\u00b5m")});

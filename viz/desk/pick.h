@@ -26,8 +26,8 @@ struct Pick {
 // behind it. Milliseconds for a hundred thousand faces.
 std::optional<Pick> PickAt(const DeskModel& model, const SightLine& sight, double reach_mm);
 
-// What the panel tells of it: the part's facts; of a measured point its position, standard
-// uncertainty, displacement and all quantities with their units.
+// What the panel tells of it: the part's facts; of a measured point its position,
+// displacement and all quantities, its standard uncertainty among them, with their units.
 std::vector<Fact> FactsOf(const DeskModel& model, const Pick& pick);
 
 }  // namespace telestrain::viz

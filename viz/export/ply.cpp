@@ -52,8 +52,9 @@ std::string HeaderOf(const Pipe& pipe, std::size_t state, const std::vector<Colu
       "ply\nformat binary_little_endian 1.0\ncomment telestrain, measured pipe surface, " +
       OneLine(StateText(pipe, state)) +
       "\ncomment x y z in mm, array frame (x along the pipe); a name's end is its unit\n"
-      "comment displacement from the reference state; sigma_um is the standard uncertainty of the "
-      "position\nelement vertex " +
+      "comment displacement from the reference state; sigma_um is the standard uncertainty along "
+      "the "
+      "pipe; nan: no value\nelement vertex " +
       std::to_string(points) + "\n";
   for (const Column& column : columns) text += "property double " + column.name + "\n";
   return text + "property int group\nend_header\n";

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -20,8 +19,8 @@ enum class SceneFormat {
 
 struct SceneExport {
   std::set<SceneFormat> formats;
-  std::optional<int> state;  // the one with the largest strain; not for ParaView
-  std::string quantity;      // that colours scene.glb; empty: the axial strain
+  std::string state = "largest";  // as ChooseValues takes it; not for ParaView
+  std::string quantity;           // that colours scene.glb; empty: the axial strain
 };
 
 // Bytes by path below the folder, in the order in which to write them: what names other files

@@ -14,10 +14,13 @@ Error NoPipe() {
       "'telestrain measure' first");
 }
 
-Error NoSuchState(int state, std::size_t states) {
-  return {ErrorKind::kUsage, "--state " + std::to_string(state) +
-                                 ": the results have the states 0 to " +
-                                 std::to_string(states - 1)};
+Result<std::size_t> StateFor(const Pipe& pipe, const std::string& word) {
+  if (word == "largest") return pipe.largest_state;
+  for (std::size_t i = 0; i < pipe.states.size(); ++i)
+    if (word == std::to_string(i) || word == pipe.states[i].image) return i;
+  return Error{ErrorKind::kUsage, "--state " + word + ": the results have the states 0 to " +
+                                      std::to_string(pipe.states.size() - 1) +
+                                      ", their images and 'largest'"};
 }
 
 Error NoSuchQuantity(const std::string& key, const std::vector<Quantity>& quantities) {
@@ -43,25 +46,20 @@ std::vector<Quantity> QuantitiesOf(const Pipe& pipe) {
   return quantities;
 }
 
-Result<std::optional<ShownValues>> ChooseValues(const Scene& scene, std::optional<int> state,
+Result<std::optional<ShownValues>> ChooseValues(const Scene& scene, const std::string& state,
                                                 const std::string& quantity) {
   if (!scene.pipe || scene.pipe->states.empty()) {
-    if (state || !quantity.empty()) return NoPipe();
+    if (state != "largest" || !quantity.empty()) return NoPipe();
     return std::optional<ShownValues>{};
   }
   const Pipe& pipe = *scene.pipe;
+  TELESTRAIN_ASSIGN_OR_RETURN(const std::size_t number, StateFor(pipe, state));
   const auto quantities = QuantitiesOf(pipe);
-  if (quantities.empty()) return NoPipe();
-  const int number = state.value_or(static_cast<int>(pipe.largest_state));
-  if (number < 0 || number >= static_cast<int>(pipe.states.size()))
-    return NoSuchState(number, pipe.states.size());
-  const auto found = quantity.empty()
-                         ? quantities.begin()
-                         : std::find_if(quantities.begin(), quantities.end(),
-                                        [&](const Quantity& q) { return q.key == quantity; });
+  const auto found = std::find_if(quantities.begin(), quantities.end(), [&](const Quantity& q) {
+    return quantity.empty() || q.key == quantity;
+  });
   if (found == quantities.end()) return NoSuchQuantity(quantity, quantities);
-  return std::optional<ShownValues>(
-      {static_cast<std::size_t>(number), *found, ValueScale(pipe, found->key)});
+  return std::optional<ShownValues>({number, *found, ValueScale(pipe, found->key)});
 }
 
 std::string StateText(const Pipe& pipe, std::size_t state) {

@@ -17,10 +17,10 @@ struct ShownValues {
   ColorScale scale;  // ValueScale over all states
 };
 
-// What of the scene is meant by a state's number and a quantity's key. Without a number: the state
-// with the largest strain; an empty key: the axial strain. Empty when no pipe was measured and
-// nothing is asked for. Fails (kUsage) naming what there is, or (kBadInput) without a pipe.
-Result<std::optional<ShownValues>> ChooseValues(const Scene& scene, std::optional<int> state,
+// What of the scene is meant by a word for a state (its number from 0, its image or "largest") and
+// a quantity's key (empty: the axial strain). Empty when no pipe was measured and nothing is asked
+// for. Fails (kUsage) naming what there is, or (kBadInput) without a pipe.
+Result<std::optional<ShownValues>> ChooseValues(const Scene& scene, const std::string& state,
                                                 const std::string& quantity);
 
 // All quantities that the states' surfaces have, each once, in their order.
