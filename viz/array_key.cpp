@@ -10,7 +10,7 @@
 namespace telestrain::viz {
 namespace {
 
-constexpr double kFooter_pt = 56, kMargin_pt = 6;
+constexpr double kFooter_pt = 60, kMargin_pt = 6;
 
 std::vector<LegendEntry> LegendOf(const Scene& scene) {
   using Sign = LegendEntry::Sign;

@@ -1,10 +1,10 @@
 #include "viz/render.h"
 
 #include <algorithm>
+#include <future>
 #include <string>
 
 #include "base/files.h"
-#include "base/parallel.h"
 #include "viz/picture_set.h"
 #include "viz/png_bytes.h"
 #include "viz/scaled_image.h"
@@ -24,13 +24,12 @@ class Series {
 
   Status Draw(const std::vector<viz::PlannedPicture>& planned, const std::vector<fs::path>& paths) {
     for (std::size_t i = 0; i <= planned.size(); ++i) {
-      Status drawn, saved;
+      Status drawn;
       std::optional<RgbImage> next;
-      ParallelFor(2, 2, [&](int part) {
-        if (part == 0 && i < planned.size()) drawn = DrawOne(planned[i], next);
-        if (part == 1 && last_) saved = Save(paths[i - 1]);
-      });
-      TELESTRAIN_RETURN_IF_ERROR(saved);
+      // All drawing stays on this thread: the OpenGL context is current on it.
+      auto saved = std::async([&] { return last_ ? Save(paths[i - 1]) : Status(); });
+      if (i < planned.size()) drawn = DrawOne(planned[i], next);
+      TELESTRAIN_RETURN_IF_ERROR(saved.get());
       TELESTRAIN_RETURN_IF_ERROR(drawn);
       if (last_) console_.Say("wrote " + paths[i - 1].string());
       last_ = std::move(next);

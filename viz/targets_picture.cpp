@@ -14,7 +14,7 @@ namespace {
 
 constexpr ViewDirection kOverview{0, 24};
 constexpr ViewDirection kCloseUp{28, 26};
-constexpr double kFooter_pt = 56, kOverview_pt = 58, kMargin_pt = 6;
+constexpr double kFooter_pt = 60, kOverview_pt = 58, kMargin_pt = 6;
 constexpr double kRulerStub_mm = 0.35;
 
 std::vector<Board> BoardsOf(const Scene& scene, const std::string& group) {

@@ -2,9 +2,9 @@
 
 #include <cmath>
 #include <functional>
+#include <future>
 
 #include "base/numbers.h"
-#include "base/parallel.h"
 #include "viz/picture_set.h"
 #include "viz/scene/scene_colors.h"
 #include "viz/scene_from_results.h"
@@ -65,18 +65,19 @@ Status Shoot(const std::vector<Shot>& shots, viz::VideoFile& film) {
   const viz::WindowKeeper keeper;
   std::optional<viz::RgbImage> last;
   for (std::size_t i = 0; i <= shots.size(); ++i) {
-    Status drawn, encoded;
+    Status drawn;
     std::optional<viz::RgbImage> next;
-    ParallelFor(2, 2, [&](int part) {
-      if (part == 1 && last) encoded = AddFrames(film, *last, shots[i - 1].frames);
-      if (part == 1 || i == shots.size()) return;
+    // All drawing stays on this thread: the OpenGL context is current on it.
+    auto encoded =
+        std::async([&] { return last ? AddFrames(film, *last, shots[i - 1].frames) : Status(); });
+    if (i < shots.size()) {
       auto picture = shots[i].draw();
       if (picture)
         next = std::move(picture->image);
       else
         drawn = picture.error();
-    });
-    TELESTRAIN_RETURN_IF_ERROR(encoded);
+    }
+    TELESTRAIN_RETURN_IF_ERROR(encoded.get());
     TELESTRAIN_RETURN_IF_ERROR(drawn);
     last = std::move(next);
   }
