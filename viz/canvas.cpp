@@ -61,12 +61,17 @@ Canvas::Canvas(const RenderOptions& options)
       overlay_(std::make_unique<Overlay>()),
       leaders_(std::make_unique<Overlay>()) {}
 
-// The window may serve the next canvas, in another thread.
+// The window may serve the next canvas, in another thread. What VTK destroys makes the context
+// current in this thread again, so all of it goes before the context is let go.
 Canvas::~Canvas() {
   if (!window_) return;
   for (const PanelState& state : panels_) window_->RemoveRenderer(state.renderer);
   for (vtkRenderer* renderer : {paper_.Get(), flat_.Get(), label_layer_.Get()})
     window_->RemoveRenderer(renderer);
+  panels_.clear();
+  paper_ = flat_ = label_layer_ = nullptr;
+  overlay_.reset();
+  leaders_.reset();
   window_->Release();
 }
 

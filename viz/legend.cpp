@@ -2,13 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace telestrain::viz {
 namespace {
 
 constexpr Rgb kTitleColor{0.08, 0.19, 0.31};
 constexpr Rgb kFactsColor{0.33, 0.38, 0.44};
-constexpr double kSign_pt = 12, kGap_pt = 4, kColumnGap_pt = 14, kMargin_pt = 6;
+constexpr double kSign_pt = 12, kGap_pt = 4, kMargin_pt = 6;
+constexpr double kColumnGap_pt = 14, kLeastColumnGap_pt = 5;
 
 void AddSign(Canvas* canvas, const LegendEntry& entry, const PixelBox& box) {
   Overlay& shapes = canvas->Shapes();
@@ -41,24 +43,31 @@ void AddSign(Canvas* canvas, const LegendEntry& entry, const PixelBox& box) {
 
 Status AddLegend(Canvas* canvas, const std::vector<LegendEntry>& entries, const PixelBox& box) {
   const TextStyle style;
-  const double line_px = std::round(canvas->Px(1.42 * style.size_pt));
-  const auto rows = static_cast<std::size_t>(std::max(1.0, std::floor(box.height / line_px)));
+  // Not rounded: as many lines at every resolution.
+  const double line_px = canvas->Px(1.42 * style.size_pt);
+  const double sign_px = std::round(canvas->Px(kSign_pt)), gap_px = canvas->Px(kGap_pt);
+  const auto rows =
+      static_cast<std::size_t>(std::max(1.0, std::floor(box.height / line_px + 1e-6)));
+  std::vector<double> columns_px;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    if (i % rows == 0) columns_px.push_back(0);
+    columns_px.back() = std::max(columns_px.back(),
+                                 sign_px + gap_px + canvas->TextSize(entries[i].text, style).x());
+  }
+  const double free_px = box.width - std::accumulate(columns_px.begin(), columns_px.end(), 0.0);
+  const double most_px =
+      columns_px.size() > 1 ? free_px / static_cast<double>(columns_px.size() - 1) : free_px;
+  if (free_px < 0 || (columns_px.size() > 1 && most_px < canvas->Px(kLeastColumnGap_pt)))
+    return OutputFailed("pictures: the legend does not fit; render a larger picture");
+  const double column_gap_px = std::min(most_px, canvas->Px(kColumnGap_pt));
   double left = std::round(box.left);
-  for (std::size_t start = 0; start < entries.size(); start += rows) {
-    double column_px = 0;
-    for (std::size_t i = start; i < std::min(start + rows, entries.size()); ++i) {
-      const Eigen::Vector2d size = canvas->TextSize(entries[i].text, style);
-      const double bottom = std::round(box.Top() - static_cast<double>(i - start + 1) * line_px);
-      const double sign_px = std::round(canvas->Px(kSign_pt));
-      const double inset = std::round(0.22 * size.y());
-      AddSign(canvas, entries[i], {left, bottom + inset, sign_px, size.y() - 2 * inset});
-      const double text_left = left + sign_px + canvas->Px(kGap_pt);
-      canvas->AddText(entries[i].text, {text_left, bottom}, style);
-      column_px = std::max(column_px, sign_px + canvas->Px(kGap_pt) + size.x());
-    }
-    if (left + column_px > box.Right())
-      return OutputFailed("pictures: the legend does not fit; render a larger picture");
-    left += std::round(column_px + canvas->Px(kColumnGap_pt));
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    if (i > 0 && i % rows == 0) left = std::floor(left + columns_px[i / rows - 1] + column_gap_px);
+    const Eigen::Vector2d size = canvas->TextSize(entries[i].text, style);
+    const double bottom = std::round(box.Top() - static_cast<double>(i % rows + 1) * line_px);
+    const double inset = std::round(0.22 * size.y());
+    AddSign(canvas, entries[i], {left, bottom + inset, sign_px, size.y() - 2 * inset});
+    canvas->AddText(entries[i].text, {left + sign_px + gap_px, bottom}, style);
   }
   return {};
 }

@@ -8,6 +8,8 @@
 #include "viz/scene_from_results.h"
 #include "viz/window_keeper.h"
 
+extern "C" void* OSMesaGetCurrentContext();
+
 namespace telestrain::viz {
 namespace {
 
@@ -57,6 +59,16 @@ TEST(WindowKeeper, ChangesNoPixel) {
     EXPECT_TRUE(Pixels(DrawArray(FixtureScene(), kSmall)) == array) << repeat;
     EXPECT_TRUE(Pixels(DrawPipeStrain(FixtureScene(), large)) == strain) << repeat;
   }
+}
+
+// A context that stays with a thread is dangling there when another thread ends it.
+TEST(WindowKeeper, LeavesNoContextWithTheThreadThatDrew) {
+  const WindowKeeper keeper;
+  EXPECT_TRUE(DrawPipeStrain(FixtureScene(), kSmall).ok());
+  EXPECT_EQ(OSMesaGetCurrentContext(), nullptr);
+  const RenderOptions narrow{1200, 740, 400};  // no room for all texts
+  EXPECT_FALSE(DrawArray(FixtureScene(), narrow).ok());
+  EXPECT_EQ(OSMesaGetCurrentContext(), nullptr);
 }
 
 TEST(WindowKeeper, ServesThreadsInTurn) {

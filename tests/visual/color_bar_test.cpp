@@ -47,8 +47,8 @@ TEST(ColorBar, PointsAtALimitInsideItsRange) {
   EXPECT_NEAR(text->box.left + 0.5 * text->box.width, place, 1);
   // Below the text there is a triangle and nothing else that is black: wide above, narrow below,
   // its middle at the limit's place.
-  const auto wide = BlackIn(picture.image, static_cast<int>(text->box.bottom) - 5);
-  const auto narrow = BlackIn(picture.image, static_cast<int>(text->box.bottom) - 9);
+  const auto wide = BlackIn(picture.image, static_cast<int>(text->box.bottom) - 9);
+  const auto narrow = BlackIn(picture.image, static_cast<int>(text->box.bottom) - 14);
   ASSERT_FALSE(wide.empty());
   ASSERT_FALSE(narrow.empty());
   EXPECT_GT(wide.size(), narrow.size() + 1);
