@@ -131,7 +131,12 @@ Result<Picture> DrawSide(const Scene& scene, const RenderOptions& options) {
   AddFieldDistance(canvas.get(), "side", renderer, scene, 0.5 * StretchOf(scene) * axes.up);
   const PixelBox right = WithHeading(canvas.get(), "along the pipe, towards \u2212x",
                                      {split, footer, canvas->Width() - split, height});
-  renderer = AddArrayPanel(canvas.get(), scene, "along pipe", kAlongPipe, right, ExtentOf(scene));
+  // Its own scale bar, across the pipe, below the pipe.
+  std::vector<Eigen::Vector3d> end_extent = ExtentOf(scene);
+  const ScaleBar end_bar{bar.start_in_array_mm, axes.across, 0.5 * bar.length_mm};
+  end_extent.push_back(end_bar.start_in_array_mm - 0.1 * bar.length_mm * axes.up);
+  renderer = AddArrayPanel(canvas.get(), scene, "along pipe", kAlongPipe, right, end_extent);
+  AddScaleBar(canvas.get(), "along pipe", renderer, end_bar);
   AddStereoAngle(canvas.get(), "along pipe", renderer, scene);
   TELESTRAIN_RETURN_IF_ERROR(AddArrayKey(canvas.get(), scene, kSide));
   return canvas->Finish();

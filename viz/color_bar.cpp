@@ -128,7 +128,7 @@ double AddColorBar(Canvas* canvas, const ColorMap& colors, const ColorScale& sca
                    const std::string& title, const PixelBox& box,
                    const std::vector<ColorBarMark>& marks) {
   Bar bar(canvas, scale, box);
-  bar.AddLine(scale.clipped ? title + ", ends open" : title);
+  bar.AddLine(scale.clipped ? title + ", some beyond" : title);
   bar.AddMarks(marks);
   bar.AddColors(colors);
   bar.AddTicks();

@@ -10,11 +10,17 @@ namespace {
 
 constexpr double kRadiansPerDegree = std::numbers::pi / 180;
 
-// Two at least: with one there is no grid.
+// Two at least: with one there is no grid. No board has more than a thousand.
 int GridCount(const JsonNode& node) {
   const int count = node.Count();
-  if (count < 2) node.Fail("a whole number of 2 at least is wanted");
+  if (count < 2 || count > 1000) node.Fail("a whole number from 2 to 1000 is wanted");
   return count;
+}
+
+int SideOf(const JsonNode& node) {
+  const int side_px = node.Count();
+  if (side_px < 1 || side_px > 100000) node.Fail("a whole number from 1 to 100000 is wanted");
+  return side_px;
 }
 
 TargetSpec TargetOf(const JsonNode& node) {
@@ -93,7 +99,7 @@ RecordedInputs InputsOf(const nlohmann::ordered_json& json) {
   RecordedInputs inputs;
   inputs.target = TargetOf(node.At("target"));
   const JsonNode sensor = node.At("sensor");
-  inputs.sensor_px = {sensor.At("width_px").Count(), sensor.At("height_px").Count()};
+  inputs.sensor_px = {SideOf(sensor.At("width_px")), SideOf(sensor.At("height_px"))};
   if (node.Has("acceptance")) ReadAcceptance(node.At("acceptance"), &inputs);
   if (node.Has("pipe")) {
     const JsonNode pipe = node.At("pipe");

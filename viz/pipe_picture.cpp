@@ -27,15 +27,16 @@ std::string GaugeText(const Scene& scene, std::size_t index) {
   return text;
 }
 
-// Gauges on the near side of the pipe, named.
+// Every gauge with its reading; those on the far side are seen through the pipe.
 void NameGauges(Canvas* canvas, const std::string& panel, const Scene& scene,
                 const Eigen::Vector3d& towards_viewer) {
   const Pipe& pipe = *scene.pipe;
   for (std::size_t i = 0; i < pipe.gauges.size(); ++i) {
-    if (pipe.gauges[i].outward_in_array.dot(towards_viewer) < -0.2) continue;
+    const bool behind = pipe.gauges[i].outward_in_array.dot(towards_viewer) < 0;
     Label label;
-    label.text = GaugeText(scene, i);
+    label.text = GaugeText(scene, i) + (behind ? ", behind" : "");
     label.anchor_in_array_mm = pipe.gauges[i].center_in_array_mm;
+    label.preferred_deg = pipe.gauges[i].outward_in_array.dot(AxesOf(scene).up) < -0.5 ? -90 : 90;
     canvas->AddLabel(panel, label);
   }
 }

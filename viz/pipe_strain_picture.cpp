@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "base/numbers.h"
 #include "viz/color_bar.h"
@@ -82,6 +83,22 @@ void AddOverview(Canvas* canvas, const Shown& shown, const PixelBox& box) {
   AddBaseLine(canvas, shown, renderer);
 }
 
+// The mean of what the colours show over a group's points.
+std::string MeanText(const Shown& shown, int group) {
+  const Surface& surface = shown.At().surface;
+  const std::vector<double>& values = surface.Find(shown.quantity.key)->values;
+  double sum = 0;
+  int count = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (surface.group[i] != group || !std::isfinite(values[i])) continue;
+    sum += values[i];
+    ++count;
+  }
+  if (count == 0) return "no points";
+  return "mean " + NumberText(sum / count, shown.scale.decimals + 1) +
+         (shown.quantity.unit.empty() ? "" : " " + shown.quantity.unit);
+}
+
 // One group's patch seen from the instrument, its heading above.
 void AddCloseUp(Canvas* canvas, const Shown& shown, int group, PixelBox box) {
   const auto index = static_cast<std::size_t>(group);
@@ -89,9 +106,7 @@ void AddCloseUp(Canvas* canvas, const Shown& shown, int group, PixelBox box) {
   const std::string name = index < groups.size() ? groups[index] : std::to_string(group);
   auto points = PointsOfGroup(shown.At().surface, group);
   const TextStyle heading{8, true, kInk};
-  const std::string text = "group " + Shortened(name) + ": local mean " +
-                           NumberText(shown.At().local_microstrain[index], 1) + " " + kMicrostrain +
-                           (points.empty() ? ", no points" : "");
+  const std::string text = "group " + Shortened(name) + ": " + MeanText(shown, group);
   const Eigen::Vector2d size = canvas->TextSize(text, heading);
   box.height -= size.y() + canvas->Px(1);
   canvas->AddText(text, {box.left + 0.5 * (box.width - size.x()), box.Top()}, heading);
@@ -141,9 +156,11 @@ Status AddKey(Canvas* canvas, const Shown& shown, const PixelBox& box) {
 
 std::string FactsOf(const Shown& shown) {
   const bool is_largest = shown.state == shown.pipe().largest_state;
-  return (is_largest ? "state with the largest strain: cycle " : "state: cycle ") +
+  const bool is_strain = shown.quantity.key.ends_with("_microstrain");
+  return "state " + std::to_string(shown.state) +
+         (is_largest ? ", the one with the largest strain: cycle " : ": cycle ") +
          Shortened(shown.At().cycle) + ", step " + Shortened(shown.At().step) +
-         "; change against the reference state, positive in tension";
+         (is_strain ? "; change against the reference state" : "");
 }
 
 }  // namespace
@@ -162,7 +179,8 @@ Result<Picture> DrawPipeStrain(const Scene& scene, const RenderOptions& options,
                     choices.range ? ScaleOfRange(*choices.range, values->values)
                                   : ValueScale({&surface}, choices.quantity)};
   TELESTRAIN_ASSIGN_OR_RETURN(const auto canvas, Canvas::Create(options));
-  std::string title = values->quantity.name + " of the pipe";
+  const bool names_pipe = values->quantity.name.find("pipe") != std::string::npos;
+  std::string title = values->quantity.name + (names_pipe ? "" : " of the pipe");
   title.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(title.front())));
   const double top = AddTitle(canvas.get(), title, FactsOf(shown));
   const double width = canvas->Width(), overview = canvas->Px(kOverview_pt);

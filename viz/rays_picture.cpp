@@ -159,7 +159,7 @@ Result<Picture> DrawRays(const OpticalRig& rig, const RigDesign& design,
   RigDrawing drawing{rig, design, SceneOfRig(rig, design), SensorPlane_mm(rig, design), {}};
   drawing.pipe_span_mm = PipeSpan(drawing.scene);
   const double top =
-      AddTitle(canvas.get(), "The way of light through the mirrors", FactsOf(drawing));
+      AddTitle(canvas.get(), "The way of light through the mirrors, as designed", FactsOf(drawing));
   const double footer = canvas->Px(kFooter_pt + kMargin_pt), margin = canvas->Px(kMargin_pt);
   const double height = top - footer - canvas->Px(4);
   const double split = kObliqueShare * canvas->Width();

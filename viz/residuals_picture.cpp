@@ -88,13 +88,16 @@ void AddRegions(Canvas* canvas, const Scene& scene, const SensorMap& map) {
     const TextStyle style{9, true, ColorOfGroup(scene, scene.views[i].group)};
     const std::string name = Shortened(scene.views[i].name);
     const Eigen::Vector2d text = canvas->TextSize(name, style);
-    // Beside the sensor, on the side that is nearer.
-    const bool left = box.left + 0.5 * box.width < map.box.left + 0.5 * map.box.width;
+    // Beside the sensor where the region reaches its edge, else in the region.
     const double gap = canvas->Px(4);
-    canvas->AddText(
-        name,
-        {left ? map.box.left - gap - text.x() : map.box.Right() + gap, box.Top() - text.y() - gap},
-        style);
+    double left = box.left + gap;
+    if (region[0] == 0)
+      left = map.box.left - gap - text.x();
+    else if (region[0] + region[2] == scene.sensor_px.x())
+      left = map.box.Right() + gap;
+    const Eigen::Vector2d at(left, box.Top() - text.y() - gap);
+    canvas->Shapes().AddBox({at.x(), at.y(), text.x(), text.y()}, {1, 1, 1});
+    canvas->AddText(name, at, style);
   }
 }
 
@@ -113,16 +116,16 @@ Status AddFooter(Canvas* canvas, const Scene& scene) {
   const double decimals = longest_px > 0 ? std::ceil(1.5 - std::log10(longest_px)) : 3;
   const std::vector<LegendEntry> entries{
       {Sign::kLine, kInk, 1,
-       "arrow: mean residual of a cell, " + FormatFixed(factor, 0) + " times enlarged; longest " +
+       "arrow: mean of a cell, \u00d7 " + FormatFixed(factor, 0) + ", longest " +
            FormatFixed(longest_px, std::clamp(static_cast<int>(decimals), 2, 6)) + " px"},
       {Sign::kNone,
        {},
        1,
-       CountOf(corners, "corner") + ", observed less modelled; no colour: no corner seen there"}};
+       CountOf(corners, "corner") + ", observed \u2212 modelled; grey: no corner"}};
   TELESTRAIN_RETURN_IF_ERROR(AddLegend(
       canvas, entries, {margin, margin, bar_left - margin - canvas->Px(8), height - margin}));
   const ColorScale scale = CellScale(scene);
-  AddColorBar(canvas, ColorMap::Viridis(scale.low, scale.high), scale, "residual RMS / px",
+  AddColorBar(canvas, ColorMap::Viridis(scale.low, scale.high), scale, "RMS per coordinate / px",
               {bar_left, 0, bar_px, height});
   return {};
 }
@@ -139,7 +142,7 @@ Result<Picture> DrawResiduals(const Scene& scene, const RenderOptions& options) 
                    " per view; a pattern in the arrows is what the model leaves unexplained");
   const double footer = canvas->Px(kFooter_pt + kMargin_pt), gap = canvas->Px(4);
   const SensorMap map =
-      MapInto(scene, {canvas->Px(kMargin_pt), footer, canvas->Width() - 2 * canvas->Px(kMargin_pt),
+      MapInto(scene, {canvas->Px(kNames_pt), footer, canvas->Width() - 2 * canvas->Px(kNames_pt),
                       top - footer - gap});
   const ColorScale scale = CellScale(scene);
   canvas->Shapes().AddBox(map.box, {0.95, 0.95, 0.95});

@@ -52,7 +52,7 @@ void AddScaleBar(Canvas* canvas, const std::string& panel, vtkRenderer* renderer
   AddParts(renderer, {Mark(Lines({{bar.start_in_array_mm, bar.End()}}), kInk, 1.8)}, nullptr,
            canvas->Px(1));
   Label label;
-  label.text = NumberText(bar.length_mm, bar.length_mm < 1 ? 1 : 0) + " mm";
+  label.text = FormatShortest(bar.length_mm) + " mm";
   label.anchor_in_array_mm = 0.5 * (bar.start_in_array_mm + bar.End());
   label.preferred_deg = -90;
   label.leader = false;

@@ -26,8 +26,6 @@ PipeState StateOf(const JsonNode& node, const std::vector<PipeGauge>& gauges) {
   state.step = node.At("step").Text();
   state.axial_microstrain = node.At("axial_microstrain").Number();
   state.standard_uncertainty_microstrain = node.NumberOr("standard_uncertainty_microstrain", 0);
-  state.local_microstrain = {node.NumberOr("local_a_microstrain", 0),
-                             node.NumberOr("local_b_microstrain", 0)};
   if (node.Has("gauge_mean_microstrain"))
     state.gauge_mean_microstrain = node.At("gauge_mean_microstrain").Number();
   state.gauge_microstrain.resize(gauges.size());

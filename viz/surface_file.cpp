@@ -83,6 +83,15 @@ bool ReadDisplacements(vtkPolyData* data, Surface* surface) {
   return true;
 }
 
+// A quad lies in one group: what joins two would be a surface between the fields.
+bool QuadsKeepToGroups(const Surface& surface) {
+  const auto group = [&](int point) { return surface.group[static_cast<std::size_t>(point)]; };
+  return std::all_of(surface.quads.begin(), surface.quads.end(), [&](const auto& quad) {
+    return std::all_of(quad.begin(), quad.end(),
+                       [&](int point) { return group(point) == group(quad[0]); });
+  });
+}
+
 // False when a cell is no quad or names a point that does not exist.
 bool ReadQuads(vtkPolyData* data, Surface* surface) {
   auto iterator = vtk::TakeSmartPointer(data->GetPolys()->NewIterator());
@@ -133,6 +142,7 @@ Result<Surface> ReadSurface(const std::filesystem::path& path, int group_count) 
   if (!ReadGroups(data, group_count, &surface))
     return Malformed(path, "point data 'group' with whole numbers from 0 to " +
                                std::to_string(group_count - 1) + " missing");
+  if (!QuadsKeepToGroups(surface)) return Malformed(path, "a quad joins points of two groups");
   return surface;
 }
 

@@ -98,6 +98,11 @@ std::vector<LegendEntry> LegendOf(const Scene& scene) {
   }
   entries.push_back({Sign::kLine, RulerColors(scene.rulers).At(0), 1,
                      CountOf(static_cast<int>(scene.rulers.size()), "ruler position")});
+  const auto failed = std::count_if(scene.rulers.begin(), scene.rulers.end(),
+                                    [](const RulerPosition& r) { return r.verdict == "fail"; });
+  if (failed > 0)
+    entries.push_back({Sign::kLine, kFailColor, 1,
+                       CountOf(static_cast<int>(failed), "ruler position") + " outside the limit"});
   if (scene.rejected_rulers > 0)
     entries.push_back({Sign::kBox,
                        {0.6, 0.6, 0.6},

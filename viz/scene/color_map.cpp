@@ -65,6 +65,7 @@ ColorMap ColorMap::Plasma(double low, double high) {
 }
 
 Rgb ColorMap::At(double value) const {
+  if (std::isnan(value)) return table_.front();
   const double share = std::clamp((value - low_) / (high_ - low_), 0.0, 1.0);
   return table_[static_cast<std::size_t>(std::min<double>(share * kEntries, kEntries - 1))];
 }

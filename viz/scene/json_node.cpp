@@ -1,5 +1,6 @@
 #include "viz/scene/json_node.h"
 
+#include <Eigen/LU>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -94,7 +95,8 @@ Eigen::Matrix3d JsonNode::Rotation() const {
   Eigen::Matrix3d matrix;
   for (int i = 0; i < 9; ++i) matrix(i / 3, i % 3) = At(i).Number();
   const Eigen::Matrix3d product = matrix * matrix.transpose();
-  if (!product.isIdentity(kUnitTolerance)) Fail("a rotation matrix is wanted");
+  if (!product.isIdentity(kUnitTolerance) || matrix.determinant() < 0)
+    Fail("a rotation matrix is wanted");
   return matrix;
 }
 

@@ -53,11 +53,11 @@ struct Part {
 
 // What PartsOf makes of a scene.
 struct PartChoices {
-  // Drawn displacement / true displacement. 0: a round factor that makes the largest mean
-  // displacement of all states about a tenth of the base length.
+  // Drawn displacement / true displacement. 0: the largest round factor with which no arrow is
+  // longer than a tenth of the base length.
   double displacement_factor = 0;
-  // Drawn half axis / standard uncertainty. 0: a round factor that makes the largest about a
-  // quarter of a board's square.
+  // Drawn half axis / standard uncertainty. 0: the largest round factor with which no half axis is
+  // longer than three squares of its board.
   double uncertainty_factor = 0;
 };
 

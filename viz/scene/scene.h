@@ -100,7 +100,6 @@ struct PipeState {
   std::string image, cycle, step;
   double axial_microstrain = 0;  // over the long base
   double standard_uncertainty_microstrain = 0;
-  std::array<double, 2> local_microstrain{};
   // What Scene::pipe's gauges read; empty where none was read.
   std::vector<std::optional<double>> gauge_microstrain;
   std::optional<double> gauge_mean_microstrain;

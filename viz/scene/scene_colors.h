@@ -18,6 +18,8 @@ inline constexpr Rgb kImageYColor{0.10, 0.52, 0.20};
 inline constexpr Rgb kAxisColors[3] = {{0.75, 0.15, 0.15}, {0.15, 0.50, 0.20}, {0.15, 0.30, 0.70}};
 inline constexpr Rgb kPipeColor{0.55, 0.60, 0.66};
 inline constexpr Rgb kInk{0.13, 0.15, 0.18};
+// Of what is outside its limit; dark, so that it is told from others in grey too.
+inline constexpr Rgb kFailColor{0.70, 0.00, 0.16};
 inline constexpr Rgb kRejectedColor{0.55, 0.55, 0.55};
 inline constexpr Rgb kGaugeColor{0.78, 0.55, 0.10};
 inline constexpr Rgb kArrowColor{0.25, 0.27, 0.30};

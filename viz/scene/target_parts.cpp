@@ -10,7 +10,7 @@ namespace telestrain::viz {
 namespace {
 
 constexpr double kSquareOpacity = 0.06;  // two dozen boards lie behind each other
-constexpr double kEllipsoidOpacity = 0.5;
+constexpr double kEllipsoidOpacity = 0.5, kEllipsoidSquares = 3;
 
 // The dark squares of a board whose first square is dark, from its outline and square size.
 Mesh DarkSquares(const Board& board) {
@@ -92,7 +92,7 @@ double UncertaintyFactor(const Scene& scene) {
     const Eigen::Matrix3d half_axes_mm = HalfAxes_mm(board.cov_center_in_array_mm2);
     largest_mm = std::max(largest_mm, half_axes_mm.colwise().norm().maxCoeff());
   }
-  return largest_mm > 0 && side_mm > 0 ? RoundDown(side_mm / largest_mm) : 0;
+  return largest_mm > 0 && side_mm > 0 ? RoundDown(kEllipsoidSquares * side_mm / largest_mm) : 0;
 }
 
 std::vector<Part> UncertaintyParts(const Scene& scene, double factor) {
@@ -134,8 +134,9 @@ std::vector<Part> RulerParts(const Scene& scene, double stub_mm) {
       part.mesh = Lines({{from, from + stub}, {to, to - stub}});
     else
       part.mesh = Lines({{from, to}});
-    part.color = colors.At(ruler.error_um);
-    part.line_width_pt = 1;
+    const bool fails = ruler.verdict == "fail";
+    part.color = fails ? kFailColor : colors.At(ruler.error_um);
+    part.line_width_pt = fails ? 2.2 : 1;
     part.facts = {{"image", ruler.image},
                   {"length error", NumberText(ruler.error_um, 3) + " \u00b5m"}};
     if (ruler.expanded_uncertainty_um > 0)
