@@ -40,7 +40,11 @@ TEST_F(RunBytes, AreThoseOfTheStepsOneByOne) {
     const ProgramRun run = RunTelestrain({verb, out});
     ASSERT_EQ(run.exit_code, 0) << run.err;
   }
-  EXPECT_EQ(DifferingFiles(Results(), out), std::vector<std::string>());
+  // `render` draws the whole set, `run` what the report shows of it.
+  for (const std::string& file : DifferingFiles(Results(), out)) {
+    EXPECT_TRUE(file.starts_with("pictures/")) << file;
+    EXPECT_FALSE(fs::exists(Results() / file)) << file;
+  }
 }
 
 TEST_F(RunBytes, NothingIsWrittenOutsideTheResultsFolder) {
