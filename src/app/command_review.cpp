@@ -8,6 +8,7 @@
 #include "base/json_file.h"
 #include "base/numbers.h"
 #include "viz/picture_set.h"
+#include "viz/review/results_shape.h"
 #include "viz/review/review_page.h"
 #include "viz/scene_from_results.h"
 
@@ -44,12 +45,12 @@ Result<std::vector<viz::ReviewPicture>> ReadPictures(const fs::path& folder) {
 
 // results.json says which files it was made of.
 Status RequireSameEvidence(const nlohmann::ordered_json& json, const fs::path& results) {
-  for (const auto& table : json["tables"]) {
-    if (table.value("id", "") != "result-files") continue;
-    for (const auto& row : table["rows"]) {
+  for (const auto& table : json.at("tables")) {
+    if (table.at("id") != "result-files") continue;
+    for (const auto& row : table.at("rows")) {
       const std::string name = row.at(0).get<std::string>();
       TELESTRAIN_ASSIGN_OR_RETURN(const std::string hash, Sha256HexOfFile(results / name));
-      if (row.back() != hash)
+      if (row.at(row.size() - 1) != hash)
         return BadInput((results / "results.json").string() + ": was made from another " + name +
                         " than the one that lies beside it; run 'telestrain report' again");
     }
@@ -65,6 +66,8 @@ Result<viz::ReviewContent> ReadContent(const fs::path& results, Console& console
   TELESTRAIN_ASSIGN_OR_RETURN(
       content.results,
       ReadJson(results / "results.json", "telestrain.results/1", "telestrain report"));
+  TELESTRAIN_RETURN_IF_ERROR(
+      viz::RequireResultsShape(content.results, (results / "results.json").string()));
   try {
     TELESTRAIN_RETURN_IF_ERROR(RequireSameEvidence(content.results, results));
   } catch (const nlohmann::json::exception& e) {
@@ -110,7 +113,7 @@ class ReviewCommand : public Command {
                 (interactive ? "scene with " + CountText(content.list.parts.size(), "part")
                              : std::string("no scene")) +
                 ", " + CountText(content.pictures.size(), "picture") + ", " +
-                CountText(content.results["tables"].size(), "table"));
+                CountText(content.results.at("tables").size(), "table"));
     return 0;
   }
 

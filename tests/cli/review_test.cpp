@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "cli/session_copy.h"
 
@@ -62,6 +63,25 @@ TEST_F(ReviewVerb, NeedsAReportOfTheSameRun) {
   Report();
   std::ofstream(results() / "residuals.csv", std::ios::app) << "\n";
   ExpectRefused("was made from another residuals.csv than the one that lies beside it");
+}
+
+TEST_F(ReviewVerb, DamagedResultsAreNamedWithTheFieldAndTheRemedy) {
+  Report();
+  const auto json = nlohmann::ordered_json::parse(ReadAll(results() / "results.json"));
+  const auto expect_refused = [&](const nlohmann::ordered_json& damaged, const std::string& named) {
+    std::ofstream(results() / "results.json") << damaged;
+    ExpectRefused((results() / "results.json").string() + ": " + named);
+    ExpectRefused("run 'telestrain report' again");
+  };
+  auto damaged = json;
+  damaged.erase("tables");
+  expect_refused(damaged, "tables: is missing");
+  damaged = json;
+  damaged["tables"][0].erase("rows");
+  expect_refused(damaged, "tables[0].rows: is missing");
+  damaged = json;
+  damaged["tables"][0]["rows"] = 3;
+  expect_refused(damaged, "tables[0].rows: a list is wanted, found 3");
 }
 
 TEST_F(ReviewVerb, EveryEarlierStepRemovesThePage) {

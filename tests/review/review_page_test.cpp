@@ -155,13 +155,39 @@ TEST(ReviewPage, WithoutVtkJsItSaysSoAndHowToGetIt) {
   EXPECT_TRUE(Holds(page, "data:image/png"));
 }
 
+// What is lost or of another kind than results.json promises is named with its place.
 TEST(ReviewPage, ResultsOfAnotherShapeAreBadInput) {
-  ReviewContent content = MadeUpContent();
-  content.results["tables"] = 7;
-  const auto page = viz::ReviewPage(content);
-  ASSERT_FALSE(page);
-  EXPECT_EQ(page.error().kind, ErrorKind::kBadInput);
-  EXPECT_TRUE(Holds(page.error().message, "run 'telestrain report' again"));
+  using nlohmann::ordered_json;
+  const ordered_json missing = ordered_json::value_t::discarded;
+  for (const auto& [place, value, named] :
+       {std::tuple<std::string, ordered_json, std::string>{"/tables", missing,
+                                                           "tables: is missing"},
+        {"/tables", 7, "tables: a list is wanted, found 7"},
+        {"/tables/0", "text", "tables[0]: an object is wanted"},
+        {"/tables/0/id", missing, "tables[0].id: is missing"},
+        {"/tables/0/rows", missing, "tables[0].rows: is missing"},
+        {"/tables/0/columns", missing, "tables[0].columns: is missing"},
+        {"/tables/0/columns/1/unit", 1, "tables[0].columns[1].unit: a text is wanted, found 1"},
+        {"/tables/1/rows/0", {"alone"}, "tables[1].rows[0]: 2 cells, one per column, are wanted"},
+        {"/tables/0/rows/1/0", 5, "tables[0].rows[1][0]: an object is wanted, found 5"},
+        {"/tables/0/rows/1/1/printed", missing, "tables[0].rows[1][1].printed: is missing"},
+        {"/quantities", missing, "quantities: is missing"},
+        {"/quantities/0/label", nullptr, "quantities[0].label: a text is wanted, found null"},
+        {"/document", "Ada", "document: an object is wanted"},
+        {"/decision", missing, "decision: is missing"},
+        {"/verdict", true, "verdict: a text is wanted, found true"}}) {
+    ReviewContent content = MadeUpContent();
+    const ordered_json::json_pointer pointer(place);
+    if (value.is_discarded())
+      content.results.at(pointer.parent_pointer()).erase(pointer.back());
+    else
+      content.results.at(pointer) = value;
+    const auto page = viz::ReviewPage(content);
+    ASSERT_FALSE(page) << place;
+    EXPECT_EQ(page.error().kind, ErrorKind::kBadInput);
+    EXPECT_TRUE(Holds(page.error().message, "results.json: " + named)) << page.error().message;
+    EXPECT_TRUE(Holds(page.error().message, "run 'telestrain report' again"));
+  }
 }
 
 }  // namespace

@@ -16,8 +16,8 @@ using Json = nlohmann::ordered_json;
 constexpr std::array kOpenTables = {"ruler", "strain-states"};
 
 std::string TextAt(const Json& json, const char* key) {
-  return json.is_object() && json.contains(key) && json[key].is_string()
-             ? json[key].get<std::string>()
+  return json.is_object() && json.contains(key) && json.at(key).is_string()
+             ? json.at(key).get<std::string>()
              : "";
 }
 
@@ -53,19 +53,19 @@ struct ColumnLook {
 };
 
 std::vector<ColumnLook> LooksOf(const Json& table) {
-  const Json& columns = table["columns"];
+  const Json& columns = table.at("columns");
   std::vector<ColumnLook> looks(columns.size());
   const bool own_units = std::any_of(columns.begin(), columns.end(), [](const Json& column) {
     return TextAt(column, "name") == "Unit";
   });
   for (std::size_t i = 0; i < looks.size(); ++i) {
     std::size_t numbers = 0;
-    for (const Json& row : table["rows"]) {
-      if (i >= row.size() || !IsNumber(row[i])) continue;
+    for (const Json& row : table.at("rows")) {
+      if (!IsNumber(row.at(i))) continue;
       ++numbers;
-      looks[i].fraction = std::max(looks[i].fraction, FractionLength(PrintedOf(row[i])));
+      looks[i].fraction = std::max(looks[i].fraction, FractionLength(PrintedOf(row.at(i))));
     }
-    looks[i].numbers = numbers > 0 && 2 * numbers >= table["rows"].size();
+    looks[i].numbers = numbers > 0 && 2 * numbers >= table.at("rows").size();
     looks[i].aligned = !own_units;
   }
   return looks;
@@ -94,9 +94,9 @@ std::string CellHtml(const Json& cell, const ColumnLook& look) {
 std::string HeadHtml(const Json& columns, const std::vector<ColumnLook>& looks) {
   std::string html = "<thead><tr>";
   for (std::size_t i = 0; i < columns.size(); ++i) {
-    const std::string unit = TextAt(columns[i], "unit");
+    const std::string unit = TextAt(columns.at(i), "unit");
     html += looks[i].numbers ? "<th scope=\"col\" class=\"number\">" : "<th scope=\"col\">";
-    html += HtmlText(TextAt(columns[i], "name"));
+    html += HtmlText(TextAt(columns.at(i), "name"));
     if (!unit.empty()) html += "<small>" + HtmlText(unit) + "</small>";
     html += "</th>";
   }
@@ -106,11 +106,10 @@ std::string HeadHtml(const Json& columns, const std::vector<ColumnLook>& looks) 
 std::string GridHtml(const Json& table) {
   const std::vector<ColumnLook> looks = LooksOf(table);
   std::string html =
-      "<div class=\"scroll\"><table>" + HeadHtml(table["columns"], looks) + "<tbody>";
-  for (const Json& row : table["rows"]) {
+      "<div class=\"scroll\"><table>" + HeadHtml(table.at("columns"), looks) + "<tbody>";
+  for (const Json& row : table.at("rows")) {
     html += "<tr>";
-    for (std::size_t i = 0; i < row.size() && i < looks.size(); ++i)
-      html += CellHtml(row[i], looks[i]);
+    for (std::size_t i = 0; i < looks.size(); ++i) html += CellHtml(row.at(i), looks[i]);
     html += "</tr>\n";
   }
   return html + "</tbody></table></div>";
@@ -119,17 +118,16 @@ std::string GridHtml(const Json& table) {
 // The sentences of the table "decisions" by quantity.
 std::map<std::string, std::string> DecisionsOf(const Json& results) {
   std::map<std::string, std::string> decisions;
-  for (const Json& table : results["tables"]) {
+  for (const Json& table : results.at("tables")) {
     if (TextAt(table, "id") != "decisions") continue;
-    for (const Json& row : table["rows"])
-      if (row.size() >= 2) decisions[PrintedOf(row[0])] = PrintedOf(row[1]);
+    for (const Json& row : table.at("rows"))
+      if (row.size() >= 2) decisions[PrintedOf(row.at(0))] = PrintedOf(row.at(1));
   }
   return decisions;
 }
 
 Json NumberOf(const Json& quantity, const char* value, const char* printed) {
-  return {{"value", quantity.contains(value) ? quantity[value] : Json()},
-          {"printed", TextAt(quantity, printed)}};
+  return {{"value", quantity.value(value, Json())}, {"printed", TextAt(quantity, printed)}};
 }
 
 }  // namespace
@@ -143,10 +141,10 @@ VerdictLook LookOf(const std::string& verdict) {
 
 std::string TablesHtml(const Json& results) {
   std::string html;
-  for (const Json& table : results["tables"]) {
+  for (const Json& table : results.at("tables")) {
     const std::string id = TextAt(table, "id");
     const bool open = std::find(kOpenTables.begin(), kOpenTables.end(), id) != kOpenTables.end();
-    const std::size_t rows = table["rows"].size();
+    const std::size_t rows = table.at("rows").size();
     html += open ? "<details open>" : "<details>";
     html += "<summary>" + HtmlText(TextAt(table, "title")) + "<small>" + std::to_string(rows) +
             (rows == 1 ? " row" : " rows") + "</small></summary>\n" + GridHtml(table) +
@@ -160,7 +158,7 @@ std::string ReasonsHtml(const Json& results) {
   Json table{{"columns", Json::array()}, {"rows", Json::array()}};
   for (const char* name : {"Verdict", "Quantity", "Result", "U", "Limit", "Unit", "Decision"})
     table["columns"].push_back({{"name", name}, {"unit", ""}});
-  for (const Json& quantity : results["quantities"]) {
+  for (const Json& quantity : results.at("quantities")) {
     const std::string verdict = TextAt(quantity, "verdict"), label = TextAt(quantity, "label");
     if (verdict.empty()) continue;
     const VerdictLook look = LookOf(verdict);

@@ -5,7 +5,8 @@
 
 namespace telestrain::viz {
 
-// The tables of results.json as HTML. Texts are escaped.
+// The tables of results.json as HTML. Texts are escaped. `results` has the shape that
+// RequireResultsShape() asks for.
 
 // Every table, each folded away but for the few that a reader wants first.
 std::string TablesHtml(const nlohmann::ordered_json& results);

@@ -8,6 +8,7 @@
 #include "viz/review/html_text.h"
 #include "viz/review/part_json.h"
 #include "viz/review/result_tables.h"
+#include "viz/review/results_shape.h"
 
 // The files of this folder and vtk.js, as the assembler puts them into the program.
 extern "C" {
@@ -36,7 +37,7 @@ constexpr const char* kNoVtkJs =
     "'telestrain review' again. The pictures below show the same.";
 
 std::string TextAt(const Json& json, const std::string& key) {
-  return json.contains(key) && json[key].is_string() ? json[key].get<std::string>() : "";
+  return json.contains(key) && json.at(key).is_string() ? json.at(key).get<std::string>() : "";
 }
 
 // "report_number" as "Report number".
@@ -130,8 +131,8 @@ void AddScene(const ReviewContent& content, std::map<std::string, std::string>* 
 
 std::string Page(const ReviewContent& content) {
   const Json& results = content.results;
-  const Json document = results.value("document", Json::object());
-  const Json decision = results.value("decision", Json::object());
+  const Json& document = results.at("document");
+  const Json& decision = results.at("decision");
   const VerdictLook look = LookOf(TextAt(results, "verdict"));
   const std::string title = TextAt(results, "title"), number = TextAt(document, "report_number");
   std::map<std::string, std::string> texts{
@@ -161,11 +162,8 @@ VtkJs BuiltInVtkJs() {
 }
 
 Result<std::string> ReviewPage(const ReviewContent& content) {
-  try {
-    return Page(content);
-  } catch (const nlohmann::json::exception& e) {
-    return BadInput(std::string("results.json: ") + e.what() + "; run 'telestrain report' again");
-  }
+  TELESTRAIN_RETURN_IF_ERROR(RequireResultsShape(content.results, "results.json"));
+  return Page(content);
 }
 
 }  // namespace telestrain::viz
