@@ -119,8 +119,13 @@ TEST_F(SceneOfPage, StatesAreToldWithTheirStrainAndItsUncertainty) {
   ASSERT_EQ(json_["states"].size(), 2u);
   EXPECT_EQ(json_["first_state"], 1);
   const std::string text = json_["states"][1]["text"];
-  EXPECT_NE(text.find("pipe/pipe_001.png, cycle 1, step 1"), std::string::npos) << text;
-  EXPECT_NE(text.find("(200.00 \u00b1 0.50) \u00b5\u03b5, k = 2"), std::string::npos) << text;
+  EXPECT_EQ(text,
+            "1  pipe/pipe_001.png, cycle 1, step 1: axial strain (200.00 \u00b1 0.50) "
+            "\u00b5\u03b5, k = 2");
+  viz::Scene unknown = scene_;
+  unknown.pipe->states[0].standard_uncertainty_microstrain = 0;
+  EXPECT_EQ(viz::SceneJson(unknown, list_)["states"][0]["text"],
+            "0  pipe/pipe_000.png, cycle 1, step 0: axial strain 100.0 \u00b5\u03b5");
 }
 
 // A label stands on its view's axis, nearer to the camera than everything drawn of the view.

@@ -178,14 +178,15 @@ std::string StrainText(double strain_microstrain, double expanded_microstrain) {
          NumberText(expanded_microstrain, decimals) + ") µε";
 }
 
+// The states count from 0, as everywhere.
 std::string TextOf(const PipeState& state, std::size_t index, double coverage_factor) {
-  std::string text = std::to_string(index + 1) + "  " + state.image;
+  const double expanded_microstrain = coverage_factor * state.standard_uncertainty_microstrain;
+  std::string text = std::to_string(index) + "  " + state.image;
   if (!state.cycle.empty()) text += ", cycle " + state.cycle;
   if (!state.step.empty()) text += ", step " + state.step;
-  return text + ": axial strain " +
-         StrainText(state.axial_microstrain,
-                    coverage_factor * state.standard_uncertainty_microstrain) +
-         ", k = " + FormatShortest(coverage_factor);
+  text += ": axial strain " + StrainText(state.axial_microstrain, expanded_microstrain);
+  if (expanded_microstrain > 0) text += ", k = " + FormatShortest(coverage_factor);
+  return text;
 }
 
 Json StatesJson(const Scene& scene) {
