@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <system_error>
-#include <tuple>
 
 #include "base/files.h"
 #include "base/json_file.h"
@@ -216,31 +215,6 @@ Status RequireSameInputs(const Session& session, const fs::path& results) {
                       "; run 'telestrain detect' again or use another --out folder");
   }
   return RequireUnseenRuler(session, recorded);
-}
-
-Status RequireConsistent(const fs::path& results, Step before) {
-  TELESTRAIN_ASSIGN_OR_RETURN(
-      const Json inputs, ReadJson(results / "inputs.json", kInputsSchema, "telestrain detect"));
-  for (const auto& [step, name, schema, maker] :
-       {std::tuple{Step::kDetect, "detection.json", "telestrain.detection/1", "telestrain detect"},
-        std::tuple{Step::kCalibrate, "calibration.json", "telestrain.calibration/1",
-                   "telestrain calibrate"},
-        std::tuple{Step::kDiagnose, "mrcal.json", "telestrain.mrcal/1", "telestrain diagnose"},
-        std::tuple{Step::kVerify, "ruler.json", "telestrain.ruler/1", "telestrain verify"},
-        std::tuple{Step::kMeasure, "strain.json", "telestrain.strain/1", "telestrain measure"}}) {
-    if (step >= before) continue;
-    std::error_code code;
-    if (!fs::exists(results / name, code)) continue;
-    TELESTRAIN_ASSIGN_OR_RETURN(const Json json, ReadJson(results / name, schema, maker));
-    const Json made_from = json.contains("made_from") ? json["made_from"] : Json::object();
-    for (const auto& [source, hash] : made_from.items()) {
-      TELESTRAIN_ASSIGN_OR_RETURN(const std::string found, Sha256HexOfFile(results / source));
-      if (hash == found) continue;
-      return BadInput((results / name).string() + ": was made from another " + source +
-                      " than the one that lies beside it; run '" + maker + "' again");
-    }
-  }
-  return {};
 }
 
 Result<std::map<std::string, std::string>> HashesOf(const fs::path& results,

@@ -6,12 +6,10 @@
 #include <string>
 
 #include "base/result.h"
+#include "session/made_from.h"
 #include "session/session.h"
 
 namespace telestrain {
-
-// The files of a results folder, in the order in which the steps make them.
-enum class Step { kDetect, kCalibrate, kDiagnose, kVerify, kMeasure, kRender, kReport, kReview };
 
 // Removes the files of this step and of those that depend on it.
 Status RemoveOutputsFrom(const std::filesystem::path& results, Step step);
@@ -37,10 +35,6 @@ Result<Session> RecordedSession(const std::filesystem::path& results);
 // Fails (kBadInput) when inputs.json is missing or was made from another session.toml,
 // tables or images.
 Status RequireSameInputs(const Session& session, const std::filesystem::path& results);
-
-// Fails (kBadInput) when the folder is no results folder (no inputs.json), or when a result of a
-// step earlier than `before` was made from another version of a file than the one that lies there.
-Status RequireConsistent(const std::filesystem::path& results, Step before);
 
 // SHA-256 of every input file as inputs.json has it, by its path in the session.
 Result<std::map<std::string, std::string>> RecordedHashes(const std::filesystem::path& results);

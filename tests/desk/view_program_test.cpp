@@ -1,5 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "base/files.h"
 #include "cli/program_run.h"
 #include "desk/x_server.h"
 #include "visual/results_fixture.h"
@@ -46,6 +50,25 @@ TEST(TelestrainView, BadResultsEndWith3AndBadWordsWith2) {
   const ProgramRun quantity = View({results, "--quantity", "axial"});
   EXPECT_EQ(quantity.exit_code, 2);
   EXPECT_NE(quantity.err.find("axial_microstrain"), std::string::npos) << quantity.err;
+}
+
+// As 'telestrain render' says it: the made-up ruler.json belongs to another calibration.json.
+TEST(TelestrainView, ResultsThatDoNotBelongTogetherEndWith3) {
+  const auto results = Results("ViewOtherCalibration");
+  auto ruler = nlohmann::ordered_json::parse(testing_support::ReadAll(results / "ruler.json"));
+  const auto view = [&](const std::string& calibration) {
+    ruler["made_from"] = {{"calibration.json", Sha256Hex(calibration)}};
+    std::ofstream(results / "ruler.json") << ruler;
+    return View({results.string()}, {.environment = {{"DISPLAY", std::nullopt}}});
+  };
+  const std::string calibration = testing_support::ReadAll(results / "calibration.json");
+  EXPECT_EQ(view(calibration).exit_code, 5);  // comes as far as the display
+  const ProgramRun other = view(calibration + "\n");
+  EXPECT_EQ(other.exit_code, 3);
+  const std::string named = (results / "ruler.json").string() +
+                            ": was made from another calibration.json than the one that lies "
+                            "beside it; run 'telestrain verify' again";
+  EXPECT_NE(other.err.find(named), std::string::npos) << other.err;
 }
 
 TEST(TelestrainView, HelpAndVersionNeedNoDisplay) {

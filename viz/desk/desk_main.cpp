@@ -8,6 +8,7 @@
 
 #include "base/files.h"
 #include "base/numbers.h"
+#include "session/made_from.h"
 #include "viz/desk/desk_control.h"
 #include "viz/desk/desk_style.h"
 #include "viz/png_bytes.h"
@@ -76,6 +77,7 @@ Result<std::array<int, 2>> SizeOf(const std::string& text) {
 
 Result<viz::DeskModel> ModelOf(const Arguments& arguments) {
   const fs::path results = arguments.results;
+  TELESTRAIN_RETURN_IF_ERROR(RequireConsistent(results, Step::kRender));
   TELESTRAIN_ASSIGN_OR_RETURN(viz::Scene scene, viz::SceneFromResults(results));
   TELESTRAIN_ASSIGN_OR_RETURN(auto shown,
                               viz::ChooseValues(scene, arguments.state, arguments.quantity));
