@@ -61,6 +61,10 @@ TEST(DeskModel, TellsTheStrainOfTheStateWithItsUncertainty) {
   const auto lines = Model().StateLines();
   EXPECT_EQ(lines[0], "state 1 of 0 to 2");
   EXPECT_EQ(lines[2], "long base: 800.0 \u00b1 22.6 \u00b5\u03b5 (k = 2)");
+  Scene unknown = SmallScene();
+  for (PipeState& state : unknown.pipe->states) state.standard_uncertainty_microstrain = 0;
+  const auto shown = *ChooseValues(unknown, "largest", "");
+  EXPECT_EQ(DeskModel("small", unknown, shown).StateLines()[2], "long base: 800.0 \u00b5\u03b5");
 }
 
 TEST(DeskModel, ThePipeIsLookedAtWithoutTheViewsInFrontOfIt) {
@@ -99,6 +103,17 @@ TEST(WriteNew, NeverOverwrites) {
   const auto nowhere = WriteNew(folder / "none", name, "bytes");
   ASSERT_FALSE(nowhere.ok());
   EXPECT_EQ(nowhere.error().kind, ErrorKind::kOutputFailed);
+}
+
+// A name may have 255 bytes: this one can be reserved, its temporary with ".part1234" not.
+TEST(WriteNew, LeavesNothingWhenWritingFails) {
+  const auto folder = std::filesystem::path(TELESTRAIN_BINARY_DIR) / "desk_test" / "write_fails";
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directories(folder);
+  const auto failed = WriteNew(folder, std::string(251, 'n') + ".png", "bytes");
+  ASSERT_FALSE(failed.ok());
+  EXPECT_EQ(failed.error().kind, ErrorKind::kOutputFailed);
+  EXPECT_TRUE(std::filesystem::is_empty(folder));
 }
 
 }  // namespace

@@ -160,8 +160,10 @@ Result<std::filesystem::path> WriteNew(const std::filesystem::path& folder, cons
     path = folder /
            (wanted.stem().string() + "_" + std::to_string(number) + wanted.extension().string());
   }
-  TELESTRAIN_RETURN_IF_ERROR(WriteFileAtomically(path, bytes));
-  return path;
+  const Status written = WriteFileAtomically(path, bytes);
+  if (written) return path;
+  std::filesystem::remove(path, code);  // what was reserved
+  return written.error();
 }
 
 }  // namespace telestrain::viz

@@ -108,13 +108,15 @@ std::vector<std::string> DeskModel::StateLines() const {
   if (!shown_) return {"no pipe was measured"};
   const PipeState& state = scene_.pipe->states[shown_->state];
   const std::string unit = " \u00b5\u03b5";
+  const double expanded = scene_.coverage_factor * state.standard_uncertainty_microstrain;
+  const bool known = expanded > 0;
   std::vector<std::string> lines{
       "state " + std::to_string(shown_->state) +
           (States() > 1 ? " of 0 to " + std::to_string(States() - 1) : ""),
       "cycle " + state.cycle + ", step " + state.step,
-      "long base: " + NumberText(state.axial_microstrain, 1) + " \u00b1 " +
-          FormatFixed(scene_.coverage_factor * state.standard_uncertainty_microstrain, 1) + unit +
-          " (k = " + FormatShortest(scene_.coverage_factor) + ")"};
+      "long base: " + NumberText(state.axial_microstrain, 1) +
+          (known ? " \u00b1 " + FormatFixed(expanded, 1) : "") + unit +
+          (known ? " (k = " + FormatShortest(scene_.coverage_factor) + ")" : "")};
   if (state.gauge_mean_microstrain)
     lines.push_back("gauges, mean: " + NumberText(*state.gauge_mean_microstrain, 1) + unit);
   return lines;
