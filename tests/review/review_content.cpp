@@ -36,25 +36,32 @@ viz::Board BoardAt(const std::string& image, const Eigen::Vector3d& middle) {
   return board;
 }
 
-// 5 x 5 points over 4 x 2 mm at the pipe's top.
-viz::Surface SurfaceOf(std::size_t state) {
-  viz::Surface surface;
-  surface.values = {{{"axial_microstrain", "axial strain", "\u00b5\u03b5"}, {}},
-                    {{"hoop_microstrain", "hoop strain", "\u00b5\u03b5"}, {}}};
+// Adds a group: 5 x 5 points over 4 x 2 mm at the pipe's top, from `x_mm` on.
+void AddGroup(std::size_t state, int group, double x_mm, viz::Surface* surface_to) {
+  viz::Surface& surface = *surface_to;
+  const auto begin = static_cast<int>(surface.points_in_array_mm.size());
   for (int row = 0; row < 5; ++row)
     for (int column = 0; column < 5; ++column) {
-      surface.points_in_array_mm.emplace_back(6 + column, -1 + 0.5 * row, kSurfaceHeight_mm);
+      surface.points_in_array_mm.emplace_back(x_mm + column, -1 + 0.5 * row, kSurfaceHeight_mm);
       surface.displacement_mm.emplace_back(1e-3 * static_cast<double>(state), 0, 0);
       surface.sigma_um.push_back(0.1);
-      surface.group.push_back(1);
+      surface.group.push_back(group);
       surface.values[0].values.push_back(kStrain_microstrain[state]);
       surface.values[1].values.push_back(kHoop_microstrain[state]);
     }
   for (int row = 0; row < 4; ++row)
     for (int column = 0; column < 4; ++column) {
-      const int first = 5 * row + column;
+      const int first = begin + 5 * row + column;
       surface.quads.push_back({first, first + 1, first + 6, first + 5});
     }
+}
+
+viz::Surface SurfaceOf(std::size_t state) {
+  viz::Surface surface;
+  surface.values = {{{"axial_microstrain", "axial strain", "\u00b5\u03b5"}, {}},
+                    {{"hoop_microstrain", "hoop strain", "\u00b5\u03b5"}, {}}};
+  AddGroup(state, 0, -5, &surface);
+  AddGroup(state, 1, 6, &surface);
   return surface;
 }
 

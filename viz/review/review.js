@@ -92,12 +92,9 @@ class Review {
     const before = this.selection;
     this.recolor();
     if (!before || this.view.isShown(before.part)) return this.refresh();
-    const alike = (part) => part.layer === before.part.layer && part.state === index &&
-        part.facts.map((fact) => fact[0]).join() === before.part.facts.map((fact) => fact[0]).join();
-    const candidates = parts.filter(alike);
-    const siblings = parts.filter((part) => part.layer === before.part.layer &&
-        part.state === before.part.state);
-    const same = candidates[siblings.indexOf(before.part)] ?? null;
+    const alike = (state) => parts.filter((part) => part.state === state &&
+        part.layer === before.part.layer && kindOf(part) === kindOf(before.part));
+    const same = alike(index)[alike(before.part.state).indexOf(before.part)] ?? null;
     this.choose(same && {part: same, point: same.points.length === before.part.points.length ?
         before.point : null, others: 0});
   }
@@ -171,6 +168,11 @@ class Review {
     const {part, point} = hits[turn % hits.length];
     this.choose({part, point: part.values.size > 0 ? point : null, others: hits.length - 1});
   }
+}
+
+// Alike for the parts of two states that show the same: what is told of them, and of which group.
+function kindOf(part) {
+  return part.facts.map(([name, value]) => name === 'group' ? `${name} ${value}` : name).join();
 }
 
 // What the panel says of the selection.
