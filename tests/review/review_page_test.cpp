@@ -2,10 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cctype>
 #include <nlohmann/json.hpp>
 #include <regex>
 
 #include "review/review_content.h"
+#include "viz/picture_set.h"
 #include "viz/review/html_text.h"
 #include "viz/review/part_json.h"
 
@@ -138,6 +141,19 @@ TEST(ReviewPage, PicturesOfAStateAreNamedByItsImage) {
   const std::string page = PageOf(content);
   EXPECT_TRUE(Holds(page, ", pipe/pipe_001.png</figcaption>"));
   EXPECT_TRUE(Holds(page, "<figcaption>Of my own</figcaption>"));
+}
+
+// Without a caption of its own a picture has its file's name, as of_my_own.png has.
+TEST(ReviewPage, EveryStandardPictureHasACaption) {
+  for (std::string name : viz::PictureNames()) {
+    ReviewContent content = MadeUpContent();
+    content.pictures = {{name + ".png", SmallPng()}};
+    std::replace(name.begin(), name.end(), '_', ' ');
+    name[0] = static_cast<char>(std::toupper(name[0]));
+    const std::string page = PageOf(content);
+    EXPECT_TRUE(Holds(page, "<figcaption>"));
+    EXPECT_FALSE(Holds(page, "<figcaption>" + name + "</figcaption>")) << name;
+  }
 }
 
 TEST(ReviewPage, TheSameContentGivesTheSameBytes) {

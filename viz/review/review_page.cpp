@@ -73,10 +73,12 @@ std::string CaptionOf(const Scene& scene, const std::string& file_name) {
       {"array", "Array: the views, the boards of the target and the pipe"},
       {"side", "Array from the side"},
       {"top", "Array from above"},
+      {"rays", "The way of light through the mirrors"},
       {"targets", "Target poses with their residuals and the ruler with its errors"},
       {"pipe", "Pipe with measured displacements and gauges"},
       {"pipe_strain", "Strain on the measured surface of the pipe"},
-      {"residuals", "Residuals over the sensor"}};
+      {"residuals", "Residuals over the sensor"},
+      {"contact_sheet", "All pictures on one sheet"}};
   const std::string stem = file_name.substr(0, file_name.rfind('.'));
   if (const auto known = kCaptions.find(stem); known != kCaptions.end()) return known->second;
   const std::size_t bar = stem.rfind('_');
