@@ -1,12 +1,14 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "app/command.h"
 #include "app/results_folder.h"
 #include "base/files.h"
 #include "base/numbers.h"
 #include "diagnostics/interchange.h"
+#include "viz/export/paraview.h"
 #include "viz/export/scene_files.h"
 #include "viz/scene_from_results.h"
 
@@ -107,6 +109,22 @@ class ExportCommand : public Command {
     return {};
   }
 
+  // An earlier export of more boards or states left pieces that the new index does not name.
+  Status RemoveOldPieces(const NamedFiles& files) const {
+    std::set<std::string> old;
+    std::error_code code;
+    for (fs::directory_iterator entry(fs::path(out_) / "scene", code), end; !code && entry != end;
+         entry.increment(code))
+      if (const std::string name = entry->path().filename().string(); viz::IsParaViewPiece(name))
+        old.insert("scene/" + name);
+    for (const auto& [name, bytes] : files) old.erase(name);
+    for (const std::string& name : old)
+      if (const fs::path path = fs::path(out_) / name; !fs::remove(path, code) && code)
+        return OutputFailed(path.string() + ": an old piece cannot be removed: " + code.message() +
+                            "; remove it by hand or choose another --out folder");
+    return {};
+  }
+
   // All bytes are there before the first is written.
   Result<int> Write(const NamedFiles& files, Console& console) const {
     std::string names;
@@ -119,6 +137,7 @@ class ExportCommand : public Command {
       TELESTRAIN_RETURN_IF_ERROR(WriteFileAtomically(path, bytes));
       if (!piece) names += name + " ";
     }
+    if (Wants("paraview")) TELESTRAIN_RETURN_IF_ERROR(RemoveOldPieces(files));
     if (pieces > 0) names += "(" + CountText(pieces, "piece") + " below scene) ";
     console.Say("export     " + names + "in " + out_);
     return 0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <fstream>
 #include <opencv2/core.hpp>
 #include <sstream>
 
@@ -111,6 +112,23 @@ TEST_F(Export, WritesTheSceneForProgramsThatShowAndMeasureIt) {
   }
   ASSERT_EQ(RunTelestrain(words).exit_code, 0);
   EXPECT_EQ(BytesBelow(out()), first);
+}
+
+TEST_F(Export, ParaViewPiecesOfAnEarlierExportGoAndOtherFilesStay) {
+  MustRun({"detect", "calibrate"});
+  const std::vector<std::string> words = {"export",       results().string(), "--out",
+                                          out().string(), "--format",         "paraview"};
+  ASSERT_EQ(RunTelestrain(words).exit_code, 0);
+  const auto first = BytesBelow(out());
+  auto wanted = first;
+  const std::string own = "scene/surface_007.vtp", more = "scene/boards_1000.vtp";
+  ASSERT_FALSE(first.contains(own) || first.contains(more));
+  for (const std::string& name : {own, more}) std::ofstream(out() / name) << "old";
+  for (const std::string name : {"scene/mine_000.vtp", "scene/surface_07.vtp", "scene/surface.vtp",
+                                 "scene/surface_007.vtu", "surface_007.vtp"})
+    std::ofstream(out() / name) << (wanted[name] = "mine");
+  ASSERT_EQ(RunTelestrain(words).exit_code, 0);
+  EXPECT_EQ(BytesBelow(out()), wanted);
 }
 
 TEST_F(Export, UsageErrorsNameWhatThereIsAndWriteNothing) {

@@ -11,6 +11,12 @@
 #include <vtkStringArray.h>
 #include <vtkXMLPolyDataWriter.h>
 
+#include <algorithm>
+#include <iterator>
+#include <optional>
+#include <string_view>
+
+#include "base/numbers.h"
 #include "viz/export/shown_values.h"
 #include "viz/part_actors.h"
 #include "viz/vtk_messages.h"
@@ -154,6 +160,18 @@ Result<std::vector<std::pair<std::string, std::string>>> ParaViewFiles(
   }
   files.emplace_back("scene.vtm", index + "  </vtkMultiBlockDataSet>\n</VTKFile>\n");
   return files;
+}
+
+bool IsParaViewPiece(const std::string& file_name) {
+  constexpr std::string_view kEnd = ".vtp";
+  if (!file_name.ends_with(kEnd)) return false;
+  const std::string stem = file_name.substr(0, file_name.size() - kEnd.size());
+  const std::optional<int> number = ParseInt(stem.substr(stem.rfind('_') + 1));
+  if (!number || *number < 0) return false;
+  const auto names_it = [&](Layer layer) {
+    return "scene/" + file_name == FileName(layer, static_cast<std::size_t>(*number));
+  };
+  return std::any_of(std::begin(kAllLayers), std::end(kAllLayers), names_it);
 }
 
 }  // namespace telestrain::viz

@@ -18,4 +18,7 @@ namespace telestrain::viz {
 Result<std::vector<std::pair<std::string, std::string>>> ParaViewFiles(
     const Scene& scene, const std::vector<Part>& parts);
 
+// Whether a file below scene/ has a name as ParaViewFiles() gives it: "boards_000.vtp".
+bool IsParaViewPiece(const std::string& file_name);
+
 }  // namespace telestrain::viz
