@@ -26,7 +26,6 @@ int Append(GifFileType* gif, const GifByteType* bytes, int count) {
 // The part of a frame that differs from the last one.
 struct Change {
   int left = 0, top = 0, right = 0, bottom = 0;  // right and bottom: one beyond
-  bool IsEmpty() const { return right <= left; }
 };
 
 bool SamePixel(const RgbImage& a, const RgbImage& b, std::size_t pixel) {

@@ -1,3 +1,8 @@
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
 #include <opencv2/core.hpp>
 #include <opencv2/core/utils/logger.hpp>
 #include <opencv2/videoio.hpp>
@@ -13,14 +18,15 @@ namespace fs = std::filesystem;
 
 class Mp4File : public VideoFile {
  public:
-  explicit Mp4File(fs::path path) : path_(std::move(path)), part_(path_.string() + ".part.mp4") {}
+  explicit Mp4File(fs::path path) : path_(std::move(path)) {}
   ~Mp4File() override {
     writer_.release();
     std::error_code code;
-    fs::remove(part_, code);
+    if (!part_.empty()) fs::remove(part_, code);
   }
 
   Status Open(int width_px, int height_px, int fps) {
+    TELESTRAIN_RETURN_IF_ERROR(MakePart());
     size_ = {width_px, height_px};
     const int h264 = cv::VideoWriter::fourcc('a', 'v', 'c', '1');
     // OpenCV tells of a missing encoder on stderr only; the caller gets it as an error.
@@ -29,7 +35,7 @@ class Mp4File : public VideoFile {
     cv::utils::logging::setLogLevel(level);
     if (is_open) return {};
     return OutputFailed(path_.string() +
-                        ": cannot be opened for writing, or OpenCV's FFmpeg has no H.264 encoder "
+                        ": cannot be encoded: OpenCV's FFmpeg has no H.264 encoder "
                         "(Debian packages libopencv-videoio406, libx264); a .gif needs none");
   }
 
@@ -51,6 +57,22 @@ class Mp4File : public VideoFile {
   }
 
  private:
+  // A file of this film alone, whatever else writes to the same name. Its path is absolute: FFmpeg
+  // takes what stands before a colon for a protocol.
+  Status MakePart() {
+    constexpr const char* kEnding = ".mp4";
+    std::error_code code;
+    const fs::path whole = fs::absolute(path_, code);
+    std::string name = whole.string() + ".XXXXXX" + kEnding;
+    const int file = code ? -1 : mkstemps(name.data(), static_cast<int>(std::strlen(kEnding)));
+    if (file < 0)
+      return OutputFailed(path_.string() + ": cannot be opened for writing: " +
+                          (code ? code.message() : std::strerror(errno)));
+    close(file);
+    part_ = name;
+    return {};
+  }
+
   fs::path path_, part_;
   cv::Size size_;
   cv::VideoWriter writer_;

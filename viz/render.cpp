@@ -16,26 +16,27 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Draws the pictures one after the other and writes each while the next is being drawn.
+// Draws the pictures one after the other and encodes each while the next is being drawn. What is
+// kept of one is its PNG, a few percent of its pixels, and its half for the contact sheet.
 class Series {
  public:
-  Series(const viz::Scene& scene, const RenderOptions& options, Console& console)
-      : scene_(scene), options_(options), console_(console) {}
+  Series(const viz::Scene& scene, const RenderOptions& options)
+      : scene_(scene), options_(options) {}
 
-  Status Draw(const std::vector<viz::PlannedPicture>& planned, const std::vector<fs::path>& paths) {
+  // The files' bytes in the order of `planned`.
+  Result<std::vector<std::string>> Draw(const std::vector<viz::PlannedPicture>& planned) {
     for (std::size_t i = 0; i <= planned.size(); ++i) {
       Status drawn;
       std::optional<RgbImage> next;
       // All drawing stays on this thread: the OpenGL context is current on it.
-      auto saved = std::async([&] { return last_ ? Save(paths[i - 1]) : Status(); });
+      auto encoded = std::async([&] { return last_ ? Encode() : Status(); });
       if (i < planned.size()) drawn = DrawOne(planned[i], next);
-      TELESTRAIN_RETURN_IF_ERROR(saved.get());
+      TELESTRAIN_RETURN_IF_ERROR(encoded.get());
       TELESTRAIN_RETURN_IF_ERROR(drawn);
-      if (last_) console_.Say("wrote " + paths[i - 1].string());
       last_ = std::move(next);
       if (last_ && planned.size() > 1) sheet_.emplace_back(planned[i].file_name, Half(*last_));
     }
-    return {};
+    return std::move(files_);
   }
 
  private:
@@ -61,15 +62,16 @@ class Series {
     return viz::Reduced(image, (image.width_px + 1) / 2, (image.height_px + 1) / 2);
   }
 
-  Status Save(const fs::path& path) const {
-    TELESTRAIN_ASSIGN_OR_RETURN(const std::string png, viz::PngBytes(*last_));
-    return WriteFileAtomically(path, png);
+  Status Encode() {
+    TELESTRAIN_ASSIGN_OR_RETURN(std::string png, viz::PngBytes(*last_));
+    files_.push_back(std::move(png));
+    return {};
   }
 
   const viz::Scene& scene_;
   const RenderOptions& options_;
-  Console& console_;
   std::optional<RgbImage> last_;
+  std::vector<std::string> files_;
   std::vector<std::pair<std::string, RgbImage>> sheet_;  // file names and halves
 };
 
@@ -116,14 +118,17 @@ Status RenderResults(const fs::path& results, const RenderOptions& options, Cons
   TELESTRAIN_ASSIGN_OR_RETURN(const viz::Scene scene, viz::SceneFromResults(results));
   TELESTRAIN_ASSIGN_OR_RETURN(const auto planned, viz::PlanPictures(scene, options));
   const fs::path folder = out.empty() ? results / "pictures" : out;
+  const bool is_file = !options.view.empty() && folder.extension() == ".png";
+  // What cannot be written is known before the drawing.
+  if (!is_file) TELESTRAIN_RETURN_IF_ERROR(EnsureFolder(folder));
   const viz::WindowKeeper keeper;
-  if (!options.view.empty() && folder.extension() == ".png")
-    return Series(scene, options, console).Draw(planned, {folder});
-  TELESTRAIN_RETURN_IF_ERROR(EnsureFolder(folder));
+  TELESTRAIN_ASSIGN_OR_RETURN(const auto files, Series(scene, options).Draw(planned));
   if (options.view.empty()) TELESTRAIN_RETURN_IF_ERROR(RemoveOthers(folder, planned));
-  std::vector<fs::path> paths;
-  for (const viz::PlannedPicture& picture : planned) paths.push_back(folder / picture.file_name);
-  TELESTRAIN_RETURN_IF_ERROR(Series(scene, options, console).Draw(planned, paths));
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const fs::path path = is_file ? folder : folder / planned[i].file_name;
+    TELESTRAIN_RETURN_IF_ERROR(WriteFileAtomically(path, files[i]));
+    console.Say("wrote " + path.string());
+  }
   if (options.view.empty() && !scene.pipe) console.Note("no strain.json: the pipe is not drawn");
   return {};
 }

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "base/numbers.h"
+#include "viz/picture_set.h"
 #include "viz/render.h"
 
 namespace telestrain {
@@ -11,10 +12,12 @@ namespace {
 
 constexpr double kInch_mm = 25.4;
 constexpr double kDefaultWidth_mm = 170;  // the report's text width
-// Half the report's text width is the least height that texts and panels need.
-constexpr double kLeastWidth_mm = 150, kLeastHeight_mm = 80;
-// Below, letters of 7 pt are less than 7 px high; above, nobody prints.
-constexpr int kLeastDpi = 72, kMostDpi = 2400;
+// Below, letters of 7 pt are less than 7 px high; above, the widest picture is narrower than the
+// report's text.
+constexpr int kLeastDpi = 72;
+constexpr int kMostDpi = static_cast<int>(kMostSide_px * kInch_mm / kDefaultWidth_mm + 0.5);
+// Far beyond the values of any quantity; the colour bar's differences and ticks stay finite.
+constexpr double kMostRangeEnd = 1e12;
 // A4 at 300 dpi takes 95 B per pixel for framebuffers, peeled layers and smoothing.
 constexpr double kBytesPerPixel = 95;
 
@@ -42,9 +45,10 @@ Status CheckSize(const RenderOptions& options) {
   const double width_mm = options.width_px * kInch_mm / dpi;
   const double height_mm = options.height_px * kInch_mm / dpi;
   // Half a pixel of the default resolution is rounded away.
-  if (width_mm < kLeastWidth_mm - 0.1 || height_mm < kLeastHeight_mm - 0.1)
+  if (width_mm < viz::kLeastPaperWidth_mm - 0.1 || height_mm < viz::kLeastPaperHeight_mm - 0.1)
     return OutOfRange("width_px x height_px",
-                      "of at least " + Millimetres(kLeastWidth_mm, kLeastHeight_mm) +
+                      "of at least " +
+                          Millimetres(viz::kLeastPaperWidth_mm, viz::kLeastPaperHeight_mm) +
                           " on paper, for the texts to fit,",
                       Millimetres(width_mm, height_mm) + " at " + std::to_string(dpi) + " dpi");
   return {};
@@ -77,6 +81,9 @@ Status CheckRenderOptions(const RenderOptions& options) {
   const auto [low, high] = *options.range;
   if (!std::isfinite(low) || !std::isfinite(high) || !(low < high))
     return OutOfRange("range", "with a low end below the high one",
+                      FormatShortest(low) + " to " + FormatShortest(high));
+  if (low < -kMostRangeEnd || high > kMostRangeEnd)
+    return OutOfRange("range", "with ends from -1e12 to 1e12",
                       FormatShortest(low) + " to " + FormatShortest(high));
   return {};
 }

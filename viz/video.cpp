@@ -1,5 +1,6 @@
 #include "viz/video.h"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <future>
@@ -88,6 +89,9 @@ Status CheckVideo(const RenderOptions& options) {
   TELESTRAIN_RETURN_IF_ERROR(CheckRenderOptions(options));
   if (options.transparent) return Usage("video: a film has no transparent paper");
   if (!options.view.empty()) return Usage("video: a film is no picture of the standard set");
+  if (options.state != "largest")
+    return Usage("video: a film shows no single state, found '" + options.state +
+                 "'; --view pipe_strain takes it");
   return {};
 }
 
@@ -114,6 +118,8 @@ Result<RenderOptions> DefaultFrame(const fs::path& file) {
 Status RenderTurntable(const fs::path& results, const RenderOptions& options,
                        const VideoOptions& video, const fs::path& file, Console& console) {
   TELESTRAIN_RETURN_IF_ERROR(CheckVideo(options));
+  if (!options.quantity.empty() || options.range)
+    return Usage("video: a turntable takes no quantity or range; a film of the states does");
   TELESTRAIN_ASSIGN_OR_RETURN(const VideoFormat format, viz::VideoFormatOf(file));
   TELESTRAIN_ASSIGN_OR_RETURN(const Timing timing, TimingOf(video, format, kTurn_s));
   TELESTRAIN_ASSIGN_OR_RETURN(const viz::Scene scene, viz::SceneFromResults(results));
@@ -138,7 +144,8 @@ Status RenderStates(const fs::path& results, const RenderOptions& options,
     return Usage("video: no strain was measured; run 'telestrain measure' first");
   TELESTRAIN_ASSIGN_OR_RETURN(viz::PictureChoices choices, viz::ChoicesFor(scene, options));
   const auto count = static_cast<int>(scene.pipe->states.size());
-  TELESTRAIN_ASSIGN_OR_RETURN(const Timing timing, TimingOf(video, format, kState_s * count));
+  TELESTRAIN_ASSIGN_OR_RETURN(const Timing timing,
+                              TimingOf(video, format, std::min(kState_s * count, kMost_s)));
   const viz::ColorScale scale = viz::ValueScale(*scene.pipe, choices.quantity);
   if (!choices.range) choices.range = {scale.low, scale.high};
   const auto frames = static_cast<int>(std::lround(timing.seconds * timing.rate));

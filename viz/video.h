@@ -10,7 +10,8 @@ namespace telestrain {
 
 // A film of a results folder. Its pictures are those of RenderOptions; 0 asks for the default.
 struct VideoOptions {
-  // A turntable turns once in 8 s, slow enough to follow; a load cycle shows every state for 1.5 s.
+  // A turntable turns once in 8 s, slow enough to follow; a load cycle shows every state for 1.5 s,
+  // for less where they would take more than 600 s.
   double seconds = 0;
   // 20 of an MP4; 10 of a GIF, whose size grows with every frame. Up to 60, of a GIF up to 50.
   int frames_per_second = 0;

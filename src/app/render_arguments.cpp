@@ -12,8 +12,13 @@ namespace {
 
 std::string ViewHelp() {
   std::string names;
-  for (const std::string& name : viz::PictureNames()) names += (names.empty() ? "" : ", ") + name;
+  for (const std::string& name : viz::ViewNames()) names += (names.empty() ? "" : ", ") + name;
   return "draw one picture of the standard set (default: all): " + names;
+}
+
+// The text with the views that the option is for.
+std::string OfViews(const std::string& text, const std::string& more = "") {
+  return text + " (view " + viz::ViewsWithChoices() + more + ")";
 }
 
 // "2008x1240".
@@ -33,11 +38,15 @@ Status ReadSize(const std::string& text, RenderOptions& options) {
 
 void RenderArguments::AddTo(CLI::App& app) {
   app.add_option("--view", view, ViewHelp());
-  app.add_option("--state", state, "state of the pipe: its number from 0, its image or 'largest'")
+  app.add_option("--state", state,
+                 OfViews("state of the pipe: its number from 0, its image or 'largest'"))
       ->capture_default_str();
   app.add_option("--quantity", quantity,
-                 "what colours the pipe: a point array of pipe_NNN.vtp (default: axial strain)");
-  app.add_option("--range", range, "ends of the pipe's colour bar, in the quantity's unit")
+                 OfViews("what colours the pipe: a point array of pipe_NNN.vtp, by default the "
+                         "axial strain",
+                         "; --states"));
+  app.add_option("--range", range,
+                 OfViews("ends of the pipe's colour bar, in the quantity's unit", "; --states"))
       ->expected(2)
       ->type_name("LOW HIGH");
   app.add_option("--size", size, "WIDTHxHEIGHT in px, up to 16384 a side (default: 2008x1240)");
@@ -61,8 +70,9 @@ void RenderArguments::AddFilmsTo(CLI::App& app) {
                                "range of colours");
   turn->excludes(cycle);
   for (auto* film : {turn, cycle})
-    for (const char* other : {"--view", "--out", "--transparent"})
+    for (const char* other : {"--view", "--out", "--transparent", "--state"})
       film->excludes(app.get_option(other));
+  for (const char* other : {"--quantity", "--range"}) turn->excludes(app.get_option(other));
   app.add_option("--seconds", video.seconds, "length of the film (default: 8; 1.5 per state)");
   app.add_option("--fps", video.frames_per_second,
                  "frames per second of the film (default: 20; 10 in .gif)");
@@ -70,7 +80,11 @@ void RenderArguments::AddFilmsTo(CLI::App& app) {
 
 Result<RenderOptions> ReadOptions(const RenderArguments& arguments) {
   RenderOptions options;
-  if (!arguments.Film().empty()) {
+  if (arguments.Film().empty()) {
+    if (arguments.video.seconds != 0 || arguments.video.frames_per_second != 0)
+      return Error{ErrorKind::kUsage,
+                   "--seconds and --fps are of a film; add --turntable or --states"};
+  } else {
     TELESTRAIN_ASSIGN_OR_RETURN(options, DefaultFrame(arguments.Film()));
   }
   if (!arguments.size.empty())

@@ -97,12 +97,103 @@ TEST(PictureSet, HasEveryStateInOneRangeAndTheLargestForTheReport) {
   for (const PlannedPicture& picture : *planned) EXPECT_TRUE(IsStandardPicture(picture.file_name));
 }
 
-TEST(PictureSet, ASingleStateHasTheNameOfItsFile) {
+// Of a view, that is to be planned alone.
+PlannedPicture PlannedView(const RenderOptions& options) {
+  const auto planned = PlanPictures(TwoStates(), options);
+  EXPECT_TRUE(planned.ok()) << planned.error().message;
+  if (!planned.ok()) return {};
+  EXPECT_EQ(planned->size(), 1u);
+  return planned->front();
+}
+
+TEST(PictureSet, AViewIsThePictureOfItsNameInTheSet) {
+  const auto set = PlanPictures(TwoStates(), {});
+  ASSERT_TRUE(set.ok());
+  for (const char* state : {"largest", "0", "1"}) {
+    RenderOptions options;
+    options.view = "pipe_strain";
+    options.state = state;
+    const PlannedPicture view = PlannedView(options);
+    const auto same = std::find_if(set->begin(), set->end(), [&](const PlannedPicture& picture) {
+      return picture.file_name == view.file_name;
+    });
+    ASSERT_NE(same, set->end()) << view.file_name;
+    EXPECT_EQ(view.choices.state, same->choices.state);
+    EXPECT_EQ(view.choices.quantity, same->choices.quantity);
+    EXPECT_EQ(view.choices.range, same->choices.range) << state;
+  }
+}
+
+TEST(PictureSet, AnotherQuantityOrRangeHasANameOfItsOwn) {
   RenderOptions options;
   options.view = "pipe_strain";
-  EXPECT_EQ(PlanPictures(TwoStates(), options)->front().file_name, "pipe_strain.png");
   options.state = "0";
-  EXPECT_EQ(PlanPictures(TwoStates(), options)->front().file_name, "pipe_strain_000.png");
+  options.quantity = kAxialStrain;  // the one that is shown anyway
+  EXPECT_EQ(PlannedView(options).file_name, "pipe_strain_000.png");
+  options.quantity = "shear_microstrain";
+  EXPECT_EQ(PlannedView(options).file_name, "pipe_strain_000_shear_microstrain.png");
+  // From -5 to 5 in both states, rounded to steps of the colour bar.
+  EXPECT_EQ(PlannedView(options).choices.range, (std::array<double, 2>{-6, 6}));
+  options.range = {-2.5, 2};
+  EXPECT_EQ(PlannedView(options).file_name, "pipe_strain_000_shear_microstrain_-2.5_to_2.png");
+  EXPECT_EQ(PlannedView(options).choices.range, options.range);
+  options.state = "largest";
+  options.quantity.clear();
+  EXPECT_EQ(PlannedView(options).file_name, "pipe_strain_-2.5_to_2.png");
+  for (const char* name : {"pipe_strain_000_shear_microstrain.png", "pipe_strain_-2.5_to_2.png"})
+    EXPECT_FALSE(IsStandardPicture(name)) << name;
+}
+
+TEST(PictureSet, RefusesWhatHasNoEffect) {
+  RenderOptions state, quantity, range;
+  state.state = "0";
+  quantity.quantity = "shear_microstrain";
+  range.range = {0, 1};
+  for (RenderOptions options : {state, quantity, range}) {
+    ExpectUsage(PlanPictures(TwoStates(), options).error(), {"--view pipe_strain"});
+    options.view = "array";
+    ExpectUsage(PlanPictures(TwoStates(), options).error(), {"'array'", "for: pipe_strain"});
+    options.view = "pipe_strain";
+    EXPECT_TRUE(PlanPictures(TwoStates(), options).ok());
+  }
+}
+
+TEST(PictureSet, SaysWhatAViewIsMissing) {
+  const auto message = [](const char* view) {
+    RenderOptions options;
+    options.view = view;
+    const auto planned = PlanPictures(Scene{}, options);
+    return planned.ok() ? std::string() : planned.error().message;
+  };
+  EXPECT_NE(message("rays").find("gives no mirrors"), std::string::npos) << message("rays");
+  EXPECT_NE(message("residuals").find("residuals.csv; run 'telestrain calibrate'"),
+            std::string::npos);
+  EXPECT_NE(message("pipe").find("'telestrain measure'"), std::string::npos);
+}
+
+TEST(PictureSet, NamesTheStateThatLacksTheQuantity) {
+  Scene scene = TwoStates();
+  scene.pipe->states[1].surface.values.pop_back();
+  RenderOptions options;
+  options.view = "pipe_strain";
+  options.quantity = "shear_microstrain";
+  ExpectUsage(PlanPictures(scene, options).error(),
+              {"state 1 ('pipe/load_300.png')", "'shear_microstrain'"});
+}
+
+TEST(PictureSet, TakesEveryViewThatItNames) {
+  const std::vector<std::string> names = ViewNames();
+  EXPECT_EQ(names.size() + 1, PictureKinds().size());  // all but the contact sheet
+  for (const std::string& name : names) {
+    RenderOptions options;
+    options.view = name;
+    const auto planned = PlanPictures(TwoStates(), options);
+    const std::string message = planned.ok() ? "" : planned.error().message;
+    EXPECT_EQ(message.find("there is no view"), std::string::npos) << name;
+  }
+  RenderOptions sheet;
+  sheet.view = "contact_sheet";
+  ExpectUsage(PlanPictures(TwoStates(), sheet).error(), {"there is no view 'contact_sheet'"});
 }
 
 TEST(PictureSet, KnowsItsFilesFromOthers) {

@@ -65,10 +65,17 @@ TEST(RenderProgram, SaysWhatIsWrongWithTheCommandLine) {
   const std::pair<std::vector<std::string>, const char*> wrong[] = {
       {{"--size", "12"}, "--size takes WIDTHxHEIGHT"},
       {{"--size", "20000x1000"}, "width_px from 1 to 16384 is wanted, found 20000"},
-      {{"--dpi", "9"}, "dots_per_inch from 72 to 2400"},
+      {{"--dpi", "9"}, "dots_per_inch from 72 to 2448"},
       {{"--view", "aray"}, "nearest is 'array'"},
-      {{"--state", "99"}, "there is no state '99'"},
-      {{"--quantity", "axial"}, "there is no quantity 'axial'"},
+      {{"--state", "1"}, "add --view pipe_strain"},
+      {{"--view", "array", "--state", "1", "--quantity", "sigma_um"}, "for: pipe_strain"},
+      {{"--view", "contact_sheet"}, "there is no view 'contact_sheet'"},
+      {{"--view", "pipe_strain", "--state", "99"}, "there is no state '99'"},
+      {{"--view", "pipe_strain", "--quantity", "axial"}, "there is no quantity 'axial'"},
+      {{"--range", "-1e308", "1e308"}, "from -1e12 to 1e12 is wanted"},
+      {{"--seconds", "3"}, "add --turntable or --states"},
+      {{"--turntable", "a.gif", "--range", "0", "1"}, "--range"},
+      {{"--states", "a.gif", "--state", "1"}, "--state"},
       {{"--range", "2", "1"}, "a low end below the high one"},
       {{"--backend", "metal"}, "osmesa"}};
   for (const auto& [words, part] : wrong) {

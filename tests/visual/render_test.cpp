@@ -2,12 +2,16 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <sstream>
 #include <thread>
+#include <tuple>
 
 #include "base/files.h"
 #include "visual/results_fixture.h"
+#include "viz/picture_set.h"
 
 namespace telestrain {
 namespace {
@@ -89,21 +93,33 @@ TEST(RenderResults, NamesTheMissingCalibrationAndItsCommand) {
 
 TEST(RenderResults, NamesTheOptionOutOfRange) {
   const auto folder = FreshFolder("OptionRange");
-  RenderOptions range;
+  RenderOptions range, huge_range;
   range.range = {5, 5};
+  huge_range.range = {-1e308, 1e308};
   const std::pair<RenderOptions, const char*> wrong[] = {
       {{10, 10}, "width_px"},
-      {{2008, 500}, "width_px x height_px of at least 150 x 80 mm"},
+      {{2008, 500}, "width_px x height_px of at least 168 x 100 mm"},
       {{16385, 1240}, "width_px"},
       {{2008, 16385}, "height_px from 1 to 16384 is wanted"},
-      {{2008, 1240, 50}, "dots_per_inch from 72 to 2400"},
-      {{2008, 1240, 1200}, "150 x 80 mm"},
+      {{2008, 1240, 50}, "dots_per_inch from 72 to 2448"},
+      {{2008, 1240, 1200}, "168 x 100 mm"},
+      {huge_range, "range with ends from -1e12 to 1e12"},
       {range, "range with a low end below the high one"}};
   for (const auto& [options, part] : wrong) {
     const Status status = Render(folder, options);
     ASSERT_FALSE(status.ok()) << part;
     EXPECT_EQ(status.error().kind, ErrorKind::kUsage);
     EXPECT_NE(status.error().message.find(part), std::string::npos) << status.error().message;
+  }
+}
+
+TEST(RenderOptions, TakeEveryWidthUpToTheMostWithTheDefaultResolution) {
+  for (const int width_px : {482, 2008, 16063, 16064, 16384}) {
+    const Status status = CheckRenderOptions({width_px, std::min(kMostSide_px, width_px)});
+    // A machine may have less memory than the largest needs.
+    const bool is_taken =
+        status.ok() || status.error().message.find("memory of") != std::string::npos;
+    EXPECT_TRUE(is_taken) << status.error().message;
   }
 }
 
@@ -152,6 +168,51 @@ TEST(RenderResults, WritesAViewToAFileWithTransparency) {
   EXPECT_EQ(png.at(24), 8);  // bits
   EXPECT_EQ(png.at(25), 6);  // red, green, blue, alpha
   EXPECT_FALSE(std::filesystem::exists(folder / "pictures"));
+}
+
+// Residuals of `rows` corners of every view of the fixture, all of one length.
+std::string Residuals(int rows, const std::string& error_px) {
+  std::string text = "view,u_px,v_px,du_px,dv_px\n";
+  for (const auto& [view, u, v] :
+       {std::tuple{"A1", 0, 0}, {"A2", 0, 972}, {"B1", 1296, 0}, {"B2", 1296, 972}})
+    for (int i = 0; i < rows; ++i)
+      text += std::string(view) + "," + std::to_string(u + 10 + i % 1270) + "," +
+              std::to_string(v + 10 + 37 * i % 950) + "," + error_px + ",0\n";
+  return text;
+}
+
+TEST(RenderResults, TheWholeSetFitsOnTheLeastPaper) {
+  const auto folder = FreshFolder("LeastPaper");
+  WriteResults(folder);
+  // As many corners, and as small errors, as a calibration of 24 poses has: long numbers.
+  ASSERT_TRUE(WriteFileAtomically(folder / "residuals.csv", Residuals(2808, "0.00113")).ok());
+  constexpr int kDpi = 150;
+  const RenderOptions least{static_cast<int>(std::lround(viz::kLeastPaperWidth_mm / 25.4 * kDpi)),
+                            static_cast<int>(std::lround(viz::kLeastPaperHeight_mm / 25.4 * kDpi)),
+                            kDpi};
+  const Status status = Render(folder, least);
+  ASSERT_TRUE(status.ok()) << status.error().message;
+  for (const char* name : {"pipe_strain_002.png", "residuals.png", "contact_sheet.png"})
+    EXPECT_TRUE(std::filesystem::exists(folder / "pictures" / name)) << name;
+  for (const RenderOptions& less : {RenderOptions{least.width_px - 2, least.height_px, kDpi},
+                                    RenderOptions{least.width_px, least.height_px - 2, kDpi}})
+    EXPECT_FALSE(CheckRenderOptions(less).ok());
+}
+
+TEST(RenderResults, APictureThatFailsLeavesTheFolderAsItWas) {
+  const auto folder = FreshFolder("FailedSet");
+  WriteResults(folder, {.ruler = false, .pipe = false});
+  // The last picture but the sheet has no room for a number of 80 digits.
+  ASSERT_TRUE(WriteFileAtomically(folder / "residuals.csv", Residuals(1, "1e80")).ok());
+  std::filesystem::create_directories(folder / "pictures");
+  for (const char* name : {"array.png", "pipe_strain_007.png"})
+    ASSERT_TRUE(WriteFileAtomically(folder / "pictures" / name, "old").ok());
+  const Status status = Render(folder);
+  ASSERT_FALSE(status.ok());
+  EXPECT_EQ(status.error().kind, ErrorKind::kOutputFailed) << status.error().message;
+  EXPECT_EQ(Bytes(folder / "pictures/array.png"), "old");
+  EXPECT_EQ(Bytes(folder / "pictures/pipe_strain_007.png"), "old");
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder / "pictures"), {}), 2);
 }
 
 TEST(RenderResults, FailsAsOutputWhenThePicturesCannotBeWritten) {
