@@ -30,11 +30,13 @@ struct RenderOptions {
   std::string view{};
   // Without a view: only what report.pdf shows of the set.
   bool only_reported = false;
+  // The next three are for the view pipe_strain and films of the states; else they are refused.
   // State of the pipe: its index, its image or "largest" (the largest strain).
   std::string state = "largest";
   // What colours the pipe: name of a point array of pipe_NNN.vtp; empty: the axial strain.
   std::string quantity{};
-  // Ends of the pipe's colour bar, in the quantity's unit; absent: from the data.
+  // Ends of the pipe's colour bar, in the quantity's unit, from -1e12 to 1e12; absent: from the
+  // data.
   std::optional<std::array<double, 2>> range{};
 
   // The resolution with the default worked out.
@@ -56,7 +58,8 @@ Result<bool> PicturesAreComplete(const std::filesystem::path& results);
 // and so on (viz/picture_set.h has the list) and, when a strain was measured, the pipe's, of which
 // pipe_strain.png shows one state and pipe_strain_000.png … every state with one common range.
 // The whole set takes pictures of the set that no longer belong to the results out of the folder;
-// a single view leaves all others alone. Needs no X server and touches nothing else. The same
+// a single view leaves all others alone. Files are written when all pictures are drawn: a picture
+// that fails leaves the folder as it was. Needs no X server and touches nothing else. The same
 // results give the same bytes, whatever the number of threads.
 // Fails with kUsage when an option is out of range or names what is not there, with kBadInput when
 // a file of the folder is missing or malformed, with kOutputFailed when rendering or writing fails.
