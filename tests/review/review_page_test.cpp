@@ -145,7 +145,8 @@ TEST(ReviewPage, PicturesOfAStateAreNamedByItsImage) {
 
 // Without a caption of its own a picture has its file's name, as of_my_own.png has.
 TEST(ReviewPage, EveryStandardPictureHasACaption) {
-  for (std::string name : viz::PictureNames()) {
+  for (const viz::PictureKind& kind : viz::PictureKinds()) {
+    std::string name = kind.name;
     ReviewContent content = MadeUpContent();
     content.pictures = {{name + ".png", SmallPng()}};
     std::replace(name.begin(), name.end(), '_', ' ');
