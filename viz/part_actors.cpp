@@ -11,8 +11,11 @@
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
 #include <vtkRenderer.h>
+#include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 
 #include "viz/scene/scene_colors.h"
 
@@ -65,6 +68,42 @@ void ColorByValues(const ValueColors& colors, vtkActor* actor) {
   mapper->SetScalarRange(colors.colors.low(), colors.colors.high());
   mapper->InterpolateScalarsBeforeMappingOn();
 }
+
+// Parts that look alike but for their colour, drawn as one: every actor costs time in every layer
+// of transparency, and there are hundreds of boards.
+class Batch {
+ public:
+  explicit Batch(const Part& part) : all_(part) {
+    all_.values.clear();
+    all_.mesh = {};
+    Add(part);
+  }
+  bool Takes(const Part& part) const {
+    return part.opacity == all_.opacity && part.lit == all_.lit &&
+           part.line_width_pt == all_.line_width_pt;
+  }
+  void Add(const Part& part) {
+    all_.mesh.Append(part.mesh);
+    colors_.resize(all_.mesh.points_in_array_mm.size(), BytesOf(part.color));
+  }
+  std::vector<vtkSmartPointer<vtkActor>> Actors(double point_px) const {
+    vtkNew<vtkUnsignedCharArray> rgb;
+    rgb->SetNumberOfComponents(3);
+    for (const auto& color : colors_) rgb->InsertNextTypedTuple(color.data());
+    auto actors = ActorsOf(all_, nullptr, point_px);
+    for (const auto& actor : actors) {
+      auto* mapper = vtkPolyDataMapper::SafeDownCast(actor->GetMapper());
+      mapper->GetInput()->GetPointData()->SetScalars(rgb);
+      mapper->SetScalarModeToUsePointData();
+      mapper->ScalarVisibilityOn();
+    }
+    return actors;
+  }
+
+ private:
+  Part all_;
+  std::vector<std::array<std::uint8_t, 3>> colors_;  // per point
+};
 
 }  // namespace
 
@@ -132,8 +171,21 @@ std::vector<vtkSmartPointer<vtkActor>> ActorsOf(const Part& part, const ValueCol
 
 void AddParts(vtkRenderer* renderer, const std::vector<Part>& parts, const ValueColors* colors,
               double point_px) {
-  for (const Part& part : parts)
-    for (const auto& actor : ActorsOf(part, colors, point_px)) renderer->AddActor(actor);
+  std::vector<Batch> batches;
+  for (const Part& part : parts) {
+    if (colors != nullptr && Find(part, colors->quantity) != nullptr) {
+      for (const auto& actor : ActorsOf(part, colors, point_px)) renderer->AddActor(actor);
+      continue;
+    }
+    const auto like = std::find_if(batches.begin(), batches.end(),
+                                   [&](const Batch& batch) { return batch.Takes(part); });
+    if (like == batches.end())
+      batches.emplace_back(part);
+    else
+      like->Add(part);
+  }
+  for (const Batch& batch : batches)
+    for (const auto& actor : batch.Actors(point_px)) renderer->AddActor(actor);
 }
 
 }  // namespace telestrain::viz

@@ -30,6 +30,7 @@ vtkSmartPointer<vtkLookupTable> TableOf(const ColorMap& colors);
 std::vector<vtkSmartPointer<vtkActor>> ActorsOf(const Part& part, const ValueColors* colors,
                                                 double point_px);
 
+// Few actors for many parts: those without the quantity that look alike share one.
 void AddParts(vtkRenderer* renderer, const std::vector<Part>& parts, const ValueColors* colors,
               double point_px);
 

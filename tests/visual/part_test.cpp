@@ -18,8 +18,7 @@ using visual_test::WriteResults;
 class Parts : public testing::Test {
  protected:
   void SetUp() override {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    const auto folder = FreshFolder(std::string("Parts_") + test->name());
+    const auto folder = FreshFolder("Parts");
     WriteResults(folder);
     const auto read = SceneFromResults(folder);
     ASSERT_TRUE(read.ok()) << read.error().message;

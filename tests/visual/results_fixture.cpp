@@ -1,5 +1,7 @@
 #include "visual/results_fixture.h"
 
+#include <gtest/gtest.h>
+
 #include <Eigen/Geometry>
 #include <array>
 #include <cmath>
@@ -266,8 +268,12 @@ double PipeStrain_microstrain(double x_mm, double y_mm) {
 }
 
 std::filesystem::path FreshFolder(const std::string& name) {
+  // Of the running test alone: ctest runs several at a time.
+  const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+  const std::string owner =
+      test == nullptr ? "none" : std::string(test->test_suite_name()) + "." + test->name();
   const std::filesystem::path folder =
-      std::filesystem::path(TELESTRAIN_BINARY_DIR) / "visual_test" / name;
+      std::filesystem::path(TELESTRAIN_BINARY_DIR) / "visual_test" / owner / name;
   std::filesystem::remove_all(folder);
   std::filesystem::create_directories(folder);
   return folder;

@@ -25,7 +25,7 @@ inline constexpr double kGaugeAxial_mm[] = {0.0, -12.5, 3.0};
 inline constexpr double kGaugeAngle_rad[] = {0.0, 0.5, -2.0};
 double PipeStrain_microstrain(double x_mm, double y_mm);
 
-// An empty folder of this name under the build tree's test output.
+// An empty folder of this name for the running test, under the build tree's test output.
 std::filesystem::path FreshFolder(const std::string& name);
 
 }  // namespace telestrain::visual_test
