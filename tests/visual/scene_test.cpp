@@ -114,6 +114,8 @@ constexpr DamageCase kDamages[] = {
     {"pipe_002.vtp", "Name=\"displacement_mm\"", "Name=\"moved_mm\"", "displacement_mm"},
     {"pipe_001.vtp", "Name=\"group\" NumberOfComponents=\"1\" format=\"ascii\">\n0",
      "Name=\"group\" NumberOfComponents=\"1\" format=\"ascii\">\n2", "'group'"},
+    {"pipe_001.vtp", "Name=\"group\" NumberOfComponents=\"1\" format=\"ascii\">\n0",
+     "Name=\"group\" NumberOfComponents=\"1\" format=\"ascii\">\n1", "points of two groups"},
     {"pipe_001.vtp", "Name=\"axial_microstrain\"", "Name=\"strain\"", "axial_microstrain"}};
 
 TEST(Scene, NamesTheFieldThatIsWrong) {
