@@ -29,10 +29,12 @@ struct Shown {
   ValueColors Colors() const { return {quantity.key, ValueColorMap(scale)}; }
 };
 
+// 0: the results state no uncertainty, and none is printed.
 std::string WithUncertainty(const Shown& shown) {
   const double expanded = shown.scene.coverage_factor * shown.At().standard_uncertainty_microstrain;
-  return NumberText(shown.At().axial_microstrain, 1) + " " + kMicrostrain + " \u00b1 " +
-         FormatFixed(expanded, 1) + " " + kMicrostrain +
+  const std::string value = NumberText(shown.At().axial_microstrain, 1) + " " + kMicrostrain;
+  if (expanded == 0) return value;
+  return value + " \u00b1 " + FormatFixed(expanded, 1) + " " + kMicrostrain +
          " (k = " + FormatShortest(shown.scene.coverage_factor) + ")";
 }
 

@@ -91,6 +91,62 @@ TEST(DrawPipeStrain, ColourAtAPointIsTheColourOfItsStrain) {
       }
 }
 
+TEST(DrawPipeStrain, PrintsNoUncertaintyWhereNoneIsStated) {
+  Scene scene = FixtureScene("NoUncertainty");
+  scene.pipe->states[scene.pipe->largest_state].standard_uncertainty_microstrain = 0;
+  const auto picture = DrawPipeStrain(scene, kSmall);
+  ASSERT_TRUE(picture.ok()) << picture.error().message;
+  EXPECT_TRUE(HasText(*picture, "\u03b5 = 812.4 \u00b5\u03b5"));
+  EXPECT_FALSE(HasText(*picture, "\u00b1"));
+}
+
+TEST(DrawPipeStrain, NamesAndAveragesTheQuantityThatIsShown) {
+  Scene scene = FixtureScene("Words");
+  Surface& surface = scene.pipe->states[scene.pipe->largest_state].surface;
+  const std::size_t points = surface.points_in_array_mm.size();
+  surface.values.push_back({{"made_up_um", "uncertainty along the pipe", "\u00b5m"}, {}});
+  for (std::size_t i = 0; i < points; ++i)
+    surface.values.back().values.push_back(surface.group[i] == 0 ? 2.0 : 4.0);
+  const auto picture = DrawPipeStrain(scene, kSmall, {std::nullopt, "made_up_um", std::nullopt});
+  ASSERT_TRUE(picture.ok()) << picture.error().message;
+  EXPECT_TRUE(HasText(*picture, "group A: mean 2.0"));
+  EXPECT_TRUE(HasText(*picture, "group B: mean 4.0"));
+  EXPECT_FALSE(HasText(*picture, "of the pipe of"));
+  EXPECT_FALSE(HasText(*picture, "change against the reference state"));
+}
+
+TEST(DrawPipe, NamesEveryGaugeWithItsReading) {
+  Scene scene = FixtureScene("Gauges");
+  Pipe& pipe = *scene.pipe;
+  PipeState& state = pipe.states[pipe.largest_state];
+  pipe.gauges.clear();
+  state.gauge_microstrain.clear();
+  for (const double side : {1.0, -1.0}) {
+    Gauge gauge;
+    gauge.name = side > 0 ? "front" : "back";
+    gauge.outward_in_array = -side * AxesOf(scene).across;
+    gauge.center_in_array_mm =
+        pipe.axis_point_in_array_mm + pipe.radius_mm * gauge.outward_in_array;
+    pipe.gauges.push_back(gauge);
+    state.gauge_microstrain.push_back(side > 0 ? 700.0 : 650.5);
+  }
+  const auto picture = DrawPipe(scene, kSmall);
+  ASSERT_TRUE(picture.ok()) << picture.error().message;
+  EXPECT_TRUE(HasText(*picture, "front: 700.0 \u00b5\u03b5"));
+  EXPECT_TRUE(HasText(*picture, "back: 650.5 \u00b5\u03b5, behind"));
+}
+
+TEST(DrawTargets, RulersOutsideTheLimitStandOut) {
+  Scene scene = FixtureScene("FailedRuler");
+  ASSERT_GT(scene.rulers.size(), 1u);
+  for (RulerPosition& ruler : scene.rulers) ruler.verdict = "pass";
+  scene.rulers.front().verdict = "fail";
+  const auto picture = DrawTargets(scene, kSmall);
+  ASSERT_TRUE(picture.ok()) << picture.error().message;
+  EXPECT_TRUE(HasText(*picture, "1 ruler position outside the limit"));
+  EXPECT_EQ(MisplacedText(*picture), "");
+}
+
 TEST(DrawPipeStrain, TellsTheLongBaseStrainWithItsUncertainty) {
   const auto picture = DrawPipeStrain(FixtureScene("StrainText"), kSmall);
   ASSERT_TRUE(picture.ok()) << picture.error().message;
