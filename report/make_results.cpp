@@ -149,7 +149,7 @@ Outcome OutcomeOf(const ResultsDraft& draft) {
 
 }  // namespace
 
-Result<Outcome> MakeResults(const std::filesystem::path& results) {
+Result<Outcome> MakeResults(const std::filesystem::path& results, const ReportScope&) {
   TELESTRAIN_ASSIGN_OR_RETURN(const Parts parts, ReadParts(results));
   ResultsDraft draft;
   draft.acceptance = ReadAcceptance(parts.inputs);

@@ -203,7 +203,7 @@ void PdfDocument::Internals::SetInfo(const PdfInfo& info) {
 PdfDocument::PdfDocument() : internals_(std::make_unique<Internals>()) {}
 PdfDocument::~PdfDocument() = default;
 
-Result<std::unique_ptr<PdfDocument>> PdfDocument::Create() {
+Result<std::unique_ptr<PdfDocument>> PdfDocument::Create(ArchiveLevel) {
   std::unique_ptr<PdfDocument> pdf(new PdfDocument);
   Internals& in = *pdf->internals_;
   for (const PdfFont& font : in.fonts)

@@ -10,10 +10,31 @@
 
 namespace telestrain {
 
-// What the document says about itself. `created` is a PDF date ("D:20260101120000Z") or empty.
+// What the document says about itself. `created` is a PDF date ("D:20260101120000Z") or empty;
+// `language` an RFC 3066 tag ("en", "de", "zh").
 struct PdfInfo {
-  std::string title, author, subject, creator;
+  std::string title, author, subject, keywords, creator;
   std::string created;
+  std::string language = "en";
+};
+
+// What the file conforms to. k3a is PDF/A-3a and PDF/UA-1: tagged, with attachments and signature
+// fields. k1b is PDF/A-1b, of which free validators exist: the same pages without tags; attachments
+// and signature fields are left out.
+enum class ArchiveLevel { k3a, k1b };
+
+// A piece of the page by its meaning, as PDF names it: "H1" "H2" "P" "Table" "TR" "TH" "TD"
+// "Figure" "Caption" "L" "LI" "LBody" "Note" "Link" "Sect" "Span".
+struct PdfTag {
+  std::string type;
+  std::string alternative_text;  // of a figure or a link: what it shows, in words
+};
+
+// A file inside the file, PDF/A-3's associated file.
+struct PdfAttachment {
+  std::string name, media_type, description;
+  std::string relationship = "Data";  // or "Source", "Supplement"
+  std::string bytes;
 };
 
 // A PDF of A4 pages drawn with libharu; hpdf.h stays in the .cpp. Text is UTF-8 in embedded
@@ -24,7 +45,7 @@ struct PdfInfo {
 class PdfDocument {
  public:
   // Fails (kOutputFailed) when a required font is not installed.
-  static Result<std::unique_ptr<PdfDocument>> Create();
+  static Result<std::unique_ptr<PdfDocument>> Create(ArchiveLevel level = ArchiveLevel::k3a);
   ~PdfDocument();
   PdfDocument(const PdfDocument&) = delete;
   PdfDocument& operator=(const PdfDocument&) = delete;
@@ -48,6 +69,25 @@ class PdfDocument {
   void EndClip();
 
   void DrawImage(const RgbImage& image, const PageBox& box);
+  // Everything drawn until the matching EndTag, on however many pages, is a piece of this meaning;
+  // tags nest. What is drawn with no tag open, or directly in one that only groups others (Table,
+  // TR, L, Sect), is decoration that a reading aid skips. Use ScopedTag.
+  void BeginTag(const PdfTag& tag);
+  void EndTag();
+  // Until the matching EndDecoration nothing is part of the open tag: repeated table headers,
+  // lines.
+  void BeginDecoration();
+  void EndDecoration();
+
+  // A place that links can name; one that is named twice keeps its first place.
+  void AddDestination(const std::string& name, double top_pt);
+  // A link from `box` of the current page to a destination, which may be added later. It belongs
+  // to the open tag, which should be a "Link". A link to nowhere is left out by Save.
+  void AddLink(const PageBox& box, const std::string& destination);
+  void Attach(PdfAttachment attachment);
+  // An empty signature field of the current page, to be filled by `telestrain sign`.
+  void AddSignatureField(const std::string& name, const std::string& tip, const PageBox& box);
+
   // An entry of the outline, pointing at `top_pt` of the current page; `level` 1 or 2.
   void AddBookmark(const std::string& title, int level, double top_pt);
 
@@ -58,6 +98,17 @@ class PdfDocument {
   struct Internals;
   PdfDocument();
   std::unique_ptr<Internals> internals_;
+};
+
+class ScopedTag {
+ public:
+  ScopedTag(PdfDocument& pdf, const PdfTag& tag) : pdf_(pdf) { pdf_.BeginTag(tag); }
+  ~ScopedTag() { pdf_.EndTag(); }
+  ScopedTag(const ScopedTag&) = delete;
+  ScopedTag& operator=(const ScopedTag&) = delete;
+
+ private:
+  PdfDocument& pdf_;
 };
 
 }  // namespace telestrain

@@ -7,6 +7,17 @@
 #include "report/rounding.h"
 
 namespace telestrain {
+
+Json Phrase(const std::string& pattern, const std::map<std::string, std::string>& values) {
+  std::string printed = pattern;
+  for (const auto& [name, value] : values) {
+    const std::string place = "{{" + name + "}}";
+    for (std::size_t at = 0; (at = printed.find(place, at)) != std::string::npos;
+         at += value.size())
+      printed.replace(at, place.size(), value);
+  }
+  return {{"printed", printed}, {"pattern", pattern}, {"values", values}};
+}
 namespace {
 
 Json NumberOrNull(std::optional<double> value) { return value ? Json(*value) : Json(nullptr); }

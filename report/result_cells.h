@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -10,7 +11,12 @@
 
 namespace telestrain {
 
-// The pieces of results.json. A cell is a text, or {value, printed} with what the PDF prints.
+// The pieces of results.json. A cell is a text, or {value, printed} with what the PDF prints, or a
+// Phrase.
+
+// A sentence with values in it, as {"printed", "pattern", "values"}. `pattern` is English with
+// {{name}}s and the key of its translation (templates/texts); `printed` is the English result.
+Json Phrase(const std::string& pattern, const std::map<std::string, std::string>& values);
 
 // Printed where a value does not exist.
 inline constexpr const char* kNoValue = "–";

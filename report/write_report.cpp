@@ -81,7 +81,7 @@ PdfInfo InfoOf(const ReportTemplate& layout, const Json& results) {
 
 }  // namespace
 
-Status WriteAcceptanceReport(const std::filesystem::path& results, const ReportOptions& options) {
+Status WriteReport(const std::filesystem::path& results, const ReportOptions& options) {
   std::error_code code;  // an older report must not stand beside newer results
   std::filesystem::remove(results / "report.pdf", code);
   TELESTRAIN_ASSIGN_OR_RETURN(const ReportTemplate layout, LoadTemplate(options.templates));
@@ -90,7 +90,7 @@ Status WriteAcceptanceReport(const std::filesystem::path& results, const ReportO
                               ReadJson(path, "telestrain.results/1", "telestrain report"));
   TELESTRAIN_ASSIGN_OR_RETURN(const std::string bytes, ReadFile(path));
   values["file"] = {{"results_sha256", Sha256Hex(bytes)}};
-  TELESTRAIN_ASSIGN_OR_RETURN(const auto pdf, PdfDocument::Create());
+  TELESTRAIN_ASSIGN_OR_RETURN(const auto pdf, PdfDocument::Create(options.level));
   PageFlow flow(*pdf, Look{});
   flow.StartPage();
   const ReportContext context{results, layout, values, flow};

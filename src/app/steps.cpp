@@ -140,7 +140,8 @@ Result<int> ReportStep(const fs::path& results, const fs::path& templates, Conso
                     ": does not exist; run 'telestrain calibrate' first");
   TELESTRAIN_RETURN_IF_ERROR(RemoveOutputsFrom(results, Step::kReport));
   TELESTRAIN_ASSIGN_OR_RETURN(const Outcome outcome, MakeResults(results));
-  TELESTRAIN_RETURN_IF_ERROR(WriteAcceptanceReport(results, {templates}));
+  TELESTRAIN_RETURN_IF_ERROR(
+      WriteReport(results, {templates, "acceptance", "en", ArchiveLevel::k3a}));
   console.Say("report     " +
               fs::absolute(results / "report.pdf", code).lexically_normal().string());
   console.Say("verdict    " + outcome.verdict);

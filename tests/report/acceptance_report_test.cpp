@@ -15,6 +15,12 @@
 namespace telestrain {
 namespace {
 
+ReportOptions OptionsOf(const std::filesystem::path& templates) {
+  ReportOptions options;
+  options.templates = templates;
+  return options;
+}
+
 class AcceptanceReport : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -27,7 +33,7 @@ class AcceptanceReport : public ::testing::Test {
     WriteResults(fixture_, folder_);
     const auto verdict = MakeResults(folder_);
     ASSERT_TRUE(verdict) << verdict.error().message;
-    const Status written = WriteAcceptanceReport(folder_);
+    const Status written = WriteReport(folder_);
     ASSERT_TRUE(written) << written.error().message;
   }
   std::string Pdf() const { return (folder_ / "report.pdf").string(); }
@@ -257,7 +263,7 @@ TEST_F(AcceptanceReport, AnotherTemplateChangesTheReport) {
       << R"({"schema": "telestrain.template/1", "labels": {"Limit": "Grenzwert"}, "blocks": [
              {"type": "heading", "text": "Abnahme {{/document/number}}"},
              {"type": "table", "table": "summary"}]})";
-  ASSERT_TRUE(WriteAcceptanceReport(folder_, {templates}));
+  ASSERT_TRUE(WriteReport(folder_, OptionsOf(templates)));
   NEEDS_TOOL(TELESTRAIN_TOOL_PDFTOTEXT, "pdftotext");
   EXPECT_NE(TextOfPdf().find("Abnahme AR-2026-0042"), std::string::npos);
   EXPECT_NE(TextOfPdf().find("Grenzwert"), std::string::npos);
@@ -266,30 +272,30 @@ TEST_F(AcceptanceReport, AnotherTemplateChangesTheReport) {
 TEST_F(AcceptanceReport, ErrorsLeaveNoFile) {
   Make();
   const auto templates = folder_ / "templates";
-  ExpectFailure(WriteAcceptanceReport(folder_, {templates}), ErrorKind::kBadInput,
+  ExpectFailure(WriteReport(folder_, OptionsOf(templates)), ErrorKind::kBadInput,
                 "acceptance.json");
   std::filesystem::create_directories(templates);
   std::ofstream(templates / "acceptance.json")
       << R"({"schema": "telestrain.template/1", "blocks": [{"type": "picture"}]})";
-  ExpectFailure(WriteAcceptanceReport(folder_, {templates}), ErrorKind::kBadInput, "/blocks/0");
+  ExpectFailure(WriteReport(folder_, OptionsOf(templates)), ErrorKind::kBadInput, "/blocks/0");
 
   std::ofstream(folder_ / "pictures" / "array.png", std::ios::trunc) << "no picture";
-  ExpectFailure(WriteAcceptanceReport(folder_), ErrorKind::kBadInput, "array.png");
+  ExpectFailure(WriteReport(folder_), ErrorKind::kBadInput, "array.png");
   std::filesystem::remove(folder_ / "pictures" / "array.png");
 
   std::ofstream(folder_ / "residuals.csv", std::ios::trunc)
       << "image,view,column,row,u_px,v_px,du_px,dv_px\na,A1,0,0,1,2,x,4\n";
-  ExpectFailure(WriteAcceptanceReport(folder_), ErrorKind::kBadInput, "residuals.csv:2");
+  ExpectFailure(WriteReport(folder_), ErrorKind::kBadInput, "residuals.csv:2");
 
   std::filesystem::remove(folder_ / "results.json");
-  ExpectFailure(WriteAcceptanceReport(folder_), ErrorKind::kBadInput, "results.json");
+  ExpectFailure(WriteReport(folder_), ErrorKind::kBadInput, "results.json");
 }
 
 TEST_F(AcceptanceReport, AFolderThatCannotBeWrittenIsAnOutputError) {
   Make();
   std::filesystem::remove(Pdf());
   std::filesystem::create_directories(folder_ / "report.pdf" / "occupied");
-  const Status status = WriteAcceptanceReport(folder_);
+  const Status status = WriteReport(folder_);
   ASSERT_FALSE(status);
   EXPECT_EQ(status.error().kind, ErrorKind::kOutputFailed);
 }

@@ -21,7 +21,7 @@ class DiagnosisReport : public ::testing::Test {
     WriteResults(fixture_, folder_);
     const auto made = MakeResults(folder_);
     EXPECT_TRUE(made) << made.error().message;
-    const Status written = WriteAcceptanceReport(folder_);
+    const Status written = WriteReport(folder_);
     EXPECT_TRUE(written) << written.error().message;
     return WithoutSpace(RunTool(std::string(TELESTRAIN_TOOL_PDFTOTEXT) + " -layout -enc UTF-8 '" +
                                 (folder_ / "report.pdf").string() + "' -")
