@@ -27,6 +27,7 @@ class TableDrawing {
  public:
   TableDrawing(PageFlow& flow, const Json& table, const TableStyle& style)
       : flow_(flow), pdf_(flow.pdf()), table_(table), style_(style) {
+    type_pt_ = flow.look().Scaled_pt(kLargestType_pt);
     width_pt_ = style.width_mm > 0 ? style.width_mm * kPointsPerMm : flow.width_pt();
     ReadColumns();
     ChooseWidths();
@@ -56,7 +57,7 @@ class TableDrawing {
   const Json& table_;
   const TableStyle& style_;
   std::vector<Column> columns_;
-  double type_pt_ = kLargestType_pt;
+  double type_pt_ = 0;
   double width_pt_ = 0;
   int rows_on_page_ = 0;
 };
