@@ -64,26 +64,26 @@ std::string EntryText(const AuditEntry& entry) {
                {"body", SortedJson(entry.body)}});
 }
 
-std::string AuditLine(const AuditEntry& entry) {
+std::string AuditLine(const AuditEntry& entry, const std::string& entry_text) {
   const SortedJson rest{{"hash", entry.hash}, {"sig", TextOrNull(entry.signature)}};
-  return "{\"entry\":" + EntryText(entry) + "," + Dump(rest).substr(1) + "\n";
+  return "{\"entry\":" + entry_text + "," + Dump(rest).substr(1) + "\n";
 }
 
 Result<AuditEntry> ParseAuditLine(const std::string& where, const std::string& line) {
   if (IsTooDeep(line)) return BadInput(where + "is nested too deep for an entry");
   AuditEntry entry;
-  std::string again;
+  std::string entry_text;
   try {
     entry = EntryOf(SortedJson::parse(line));
-    again = AuditLine(entry);
+    entry_text = EntryText(entry);
   } catch (const SortedJson::parse_error&) {
     return BadInput(where + "is not JSON");
   } catch (const SortedJson::exception&) {
     return BadInput(where + "is no entry of an audit trail, version 1");
   }
-  if (entry.hash != Sha256Hex(EntryText(entry)))
+  if (entry.hash != Sha256Hex(entry_text))
     return BadInput(where + "was changed: its entry has another hash than the line says");
-  if (again != line + "\n")
+  if (AuditLine(entry, entry_text) != line + "\n")
     return BadInput(where + "is not written as this program writes an entry");
   return entry;
 }

@@ -12,8 +12,8 @@ std::string CanonicalJson(const Json& json);
 
 // The text over which an entry's hash goes.
 std::string EntryText(const AuditEntry& entry);
-// The line of an entry with hash and signature, with its end.
-std::string AuditLine(const AuditEntry& entry);
+// The line of an entry with hash and signature, with its end; `entry_text` is its EntryText.
+std::string AuditLine(const AuditEntry& entry, const std::string& entry_text);
 
 // Reads one line without its end; only the exact text that AuditLine would write is taken, so that
 // no byte of a trail can change unseen. Fails (kBadInput) with what is wrong: it is not JSON, not
