@@ -104,7 +104,8 @@ void TableDrawing::Measure() {
       const Json& cell = row[i];
       const TextStyle style = CellStyle(column, cell);
       const double text_pt = pdf_.TextWidth_pt(style, CellText(cell));
-      const bool breakable = cell.is_string() && !column.mono && text_pt > kUnbroken_pt;
+      const bool is_text = cell.is_string() || (cell.is_object() && cell.contains("pattern"));
+      const bool breakable = is_text && !column.mono && text_pt > kUnbroken_pt;
       column.natural_pt = std::max(column.natural_pt, text_pt);
       column.least_pt = std::max(column.least_pt,
                                  breakable ? WidestWord_pt(pdf_, style, CellText(cell)) : text_pt);

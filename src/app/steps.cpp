@@ -26,8 +26,9 @@ Status SayWhy(const fs::path& results, Console& console) {
     for (const auto& quantity : json.at("quantities")) {
       const auto text = [&](const char* key) {
         const auto at = quantity.find(key);
-        return at != quantity.end() && at->is_string() ? at->template get<std::string>()
-                                                       : std::string("-");
+        if (at == quantity.end()) return std::string("-");
+        const auto& entry = at->is_object() ? at->at("printed") : *at;  // a Phrase
+        return entry.is_string() ? entry.template get<std::string>() : std::string("-");
       };
       if (quantity.at("limit").is_null() || text("verdict") == "pass") continue;
       console.Say("  " + text("label") + ": " + text("printed") + " " + text("unit") + " (U " +
