@@ -28,7 +28,8 @@ constexpr const char* kTableNames[] = {
     "pipe", "correlation", "corners-rejected", "mrcal-check", "mrcal-facts", "residual-tests",
     "residual-views", "residual-findings", "residual-boards", "outlier-replay", "uncertainty",
     "pinhole", "decisions", "ruler-trends", "ruler-acceptance", "sequence", "sequence-cycles",
-    "extensometer-class", "gauge-outliers"};
+    "extensometer-class", "gauge-outliers", "item", "statements", "budget", "diameter-budget",
+    "noise-floor", "idics", "earlier", "changes", "changes-calibration"};
 // clang-format on
 
 const std::vector<std::string>& TableNames() {
@@ -47,13 +48,13 @@ const std::vector<std::string>& ChartNames() {
       "pinhole-rms",          "pinhole-ruler",
       "uncertainty-of-noise", "uncertainty-of-everything",
       "ruler-positions",      "ruler-depths",
-      "strain-hysteresis"};
+      "strain-hysteresis",    "budget-bars"};
   return kNames;
 }
 
 const std::vector<std::string>& ConditionNames() {
-  static const std::vector<std::string> kNames = {"calibration", "diagnosis", "pinhole", "ruler",
-                                                  "strain",      "gauges",    "sequence"};
+  static const std::vector<std::string> kNames = {
+      "calibration", "diagnosis", "pinhole", "ruler", "strain", "gauges", "sequence", "changes"};
   return kNames;
 }
 
