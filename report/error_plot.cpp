@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kBeyondErrors = 1.05;  // room above the largest error bar
 constexpr double kBeyondLimit = 1.15;   // and above a limit, for its text
-constexpr double kMostScale = 3;        // the limit may take this many times the errors' range
+constexpr double kMostScale = 5;        // the limit may take this many times the errors' range
 
 PlotAxis AxisOf(const std::vector<ErrorPoint>& points, const ErrorChart& chart,
                 const std::string& label) {
@@ -66,7 +66,7 @@ Status DrawErrorChart(const ReportContext& context, const PageBox& box,
             {context.layout.Translate(chart.y_label), -range.reach, range.reach});
   plot.DrawCurve({plot.x_low(), plot.x_high()}, {0, 0}, {context.flow.look().muted, 0.7});
   DrawLimits(context, chart, range, plot);
-  const double size_pt = chart.numbered ? 1.15 * plot.MarkerSize_pt() : 1.6;
+  const double size_pt = chart.numbered ? 1.15 * plot.MarkerSize_pt() : 2;
   for (const ErrorPoint& point : points) {
     plot.DrawErrorBar(point.x, point.error, point.expanded_uncertainty, point.color, size_pt);
     plot.DrawMarker(point.x, point.error, point.marker, point.color, size_pt);

@@ -26,7 +26,7 @@ struct ErrorChart {
 };
 
 // How far the axis of errors reaches. The errors set it, so that small ones are not flat beside a
-// wide limit; the limit is inside only where that leaves the errors a third of the height.
+// wide limit; the limit is inside only where that leaves the errors a fifth of the height.
 struct ErrorRange {
   double reach = 1;
   bool limit_is_inside = false;
