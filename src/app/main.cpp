@@ -78,6 +78,7 @@ std::vector<std::unique_ptr<Command>> AllCommands() {
   commands.push_back(MakeRenderCommand());
   commands.push_back(MakeReportCommand());
   commands.push_back(MakeReviewCommand());
+  commands.push_back(MakeSignCommand());
   commands.push_back(MakeExportCommand());
   commands.push_back(MakeSimulateCommand());
   commands.push_back(MakeStudyCommand());
