@@ -33,10 +33,9 @@ bool Prints(const std::string& printed, const std::string& hash) {
 Result<std::vector<AuditEntry>> TrailInside(const std::string& name, const PdfContents& contents,
                                             const std::string& printed) {
   const auto attached = contents.attachments.find(kTrail);
-  if (attached == contents.attachments.end())
-    return BadInput(name + " carries no audit trail");
-  TELESTRAIN_ASSIGN_OR_RETURN(auto entries, ReadAuditTrail("the audit trail in " + name,
-                                                           attached->second));
+  if (attached == contents.attachments.end()) return BadInput(name + " carries no audit trail");
+  TELESTRAIN_ASSIGN_OR_RETURN(auto entries,
+                              ReadAuditTrail("the audit trail in " + name, attached->second));
   if (entries.empty()) return BadInput("the audit trail in " + name + " is empty");
   if (!Prints(printed, entries.back().hash))
     return BadInput("the audit trail in " + name +
@@ -75,9 +74,8 @@ std::vector<std::pair<std::size_t, std::string>> RecordedRoles(
   std::vector<std::pair<std::size_t, std::string>> roles;
   for (std::size_t i = 0; i < entries.size(); ++i) {
     if (entries[i].type == "report") roles.clear();
-    if (entries[i].type == "sign")
-      roles.emplace_back(i, TextAt(entries[i].body, "/options/role",
-                                   TextAt(entries[i].body, "/role")));
+    if (entries[i].type == "sign" && TextAt(entries[i].body, "/file") == "report.pdf")
+      roles.emplace_back(i, TextAt(entries[i].body, "/role"));
   }
   return roles;
 }
@@ -116,8 +114,7 @@ Result<std::string> CheckReport(const std::string& name, const std::string& byte
   TELESTRAIN_ASSIGN_OR_RETURN(const auto entries, TrailInside(name, contents, printed));
   TELESTRAIN_RETURN_IF_ERROR(CheckAttachments(name, contents, entries, printed));
   if (folder) TELESTRAIN_RETURN_IF_ERROR(CheckAgainstFolder(name, contents, *folder));
-  TELESTRAIN_ASSIGN_OR_RETURN(const std::string signatures,
-                              Signatures(name, bytes, trust, folder));
+  TELESTRAIN_ASSIGN_OR_RETURN(const std::string signatures, Signatures(name, bytes, trust, folder));
   return CountText(contents.attachments.size(), "attachment") + " as printed, " + signatures;
 }
 

@@ -8,6 +8,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kReport = "report.pdf";
+
 bool IsOf(const Json& file, const char* where) { return TextAt(file, "/of") == where; }
 
 std::size_t BytesOf(const Json& file) {
@@ -19,7 +21,7 @@ Status CheckFile(const std::string& path, const std::string& made_by, const Trai
                  const std::string& bytes) {
   if (Sha256Hex(bytes) == wanted.sha256) return {};
   // Signatures are added to the end; whether they are valid is asked elsewhere.
-  const bool signed_since = path == "report.pdf" && bytes.size() > wanted.bytes &&
+  const bool signed_since = path == kReport && wanted.bytes > 0 && bytes.size() > wanted.bytes &&
                             bytes.find("/ByteRange", wanted.bytes) != std::string::npos;
   if (signed_since && Sha256Hex(bytes.substr(0, wanted.bytes)) == wanted.sha256) return {};
   return BadInput(path + " was changed after " + made_by + " made it");
@@ -30,10 +32,14 @@ Status CheckFile(const std::string& path, const std::string& made_by, const Trai
 std::map<std::string, TrailFile> LatestOutputs(const std::vector<AuditEntry>& entries,
                                                std::size_t count) {
   std::map<std::string, TrailFile> files;
-  for (std::size_t i = 0; i < count; ++i)
-    for (const Json& file : ListAt(entries[i].body, "/outputs"))
+  for (std::size_t i = 0; i < count; ++i) {
+    const Json& body = entries[i].body;
+    if (entries[i].type == "sign" && TextAt(body, "/file") == kReport)
+      files[kReport] = {TextAt(body, "/sha256_after"), 0, i};
+    for (const Json& file : ListAt(body, "/outputs"))
       if (IsOf(file, "results"))
         files[TextAt(file, "/path")] = {TextAt(file, "/sha256"), BytesOf(file), i};
+  }
   return files;
 }
 

@@ -47,8 +47,7 @@ Result<std::string> InputsInWords(const AuditQuestion& question, const FolderTra
 bool CarriesNothing(const FolderTrail& trail) {
   const auto report = std::find_if(trail.entries.rbegin(), trail.entries.rend(),
                                    [](const AuditEntry& entry) { return entry.type == "report"; });
-  return report != trail.entries.rend() &&
-         TextAt(report->body, "/options/archive-level") == "1b";
+  return report != trail.entries.rend() && TextAt(report->body, "/options/archive-level") == "1b";
 }
 
 Result<std::string> ReportInWords(const AuditQuestion& question, const FolderTrail& trail) {
@@ -81,8 +80,7 @@ Result<std::string> CheckLogFile(const AuditQuestion& question, const fs::path& 
 }
 
 Result<std::string> CheckFolder(const AuditQuestion& question) {
-  TELESTRAIN_ASSIGN_OR_RETURN(const FolderTrail trail,
-                              ReadTrail(question.subject / "audit.jsonl"));
+  TELESTRAIN_ASSIGN_OR_RETURN(const FolderTrail trail, ReadTrail(question.subject / "audit.jsonl"));
   TELESTRAIN_RETURN_IF_ERROR(CheckStory(trail.entries));
   TELESTRAIN_ASSIGN_OR_RETURN(const std::size_t files,
                               CheckOutputs(trail.entries, question.subject));
@@ -91,8 +89,8 @@ Result<std::string> CheckFolder(const AuditQuestion& question) {
   std::string words = CountText(trail.entries.size(), "step") + " chained, " +
                       CountText(files, "file") + " unchanged, " + inputs + "; " + report;
   if (question.log.empty()) return words;
-  TELESTRAIN_ASSIGN_OR_RETURN(
-      const std::string log, CheckLogFile(question, question.log, trail.entries.back().hash));
+  TELESTRAIN_ASSIGN_OR_RETURN(const std::string log,
+                              CheckLogFile(question, question.log, trail.entries.back().hash));
   return words + "; " + log;
 }
 

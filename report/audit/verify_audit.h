@@ -11,11 +11,13 @@ namespace telestrain {
 // `telestrain audit verify`.
 struct AuditQuestion {
   std::filesystem::path subject;  // a results folder, its report.pdf, a report anywhere, or a log
-  std::filesystem::path session;  // empty: where session.path says; not there: inputs are not checked
-  TrustOptions trust;             // whose signatures in the report count
+  std::filesystem::path
+      session;         // empty: where session.path says; not there: inputs are not checked
+  TrustOptions trust;  // whose signatures in the report count
   // The instrument's log, which must tell of the results folder's latest entry; may be empty.
   std::filesystem::path log;
-  std::filesystem::path public_key;  // PEM; every line of the log must be signed by its private half
+  std::filesystem::path
+      public_key;  // PEM; every line of the log must be signed by its private half
 };
 
 struct AuditAnswer {

@@ -37,6 +37,7 @@ std::unique_ptr<Command> MakeRenderCommand();
 std::unique_ptr<Command> MakeReportCommand();
 std::unique_ptr<Command> MakeReviewCommand();
 std::unique_ptr<Command> MakeExportCommand();
+std::unique_ptr<Command> MakeSignCommand();
 std::unique_ptr<Command> MakeStudyCommand();
 std::unique_ptr<Command> MakeRunCommand();
 std::unique_ptr<Command> MakeAuditCommand();

@@ -79,6 +79,7 @@ std::vector<std::unique_ptr<Command>> AllCommands() {
   commands.push_back(MakeRenderCommand());
   commands.push_back(MakeReportCommand());
   commands.push_back(MakeReviewCommand());
+  commands.push_back(MakeSignCommand());
   commands.push_back(MakeExportCommand());
   commands.push_back(MakeSimulateCommand());
   commands.push_back(MakeStudyCommand());
@@ -104,7 +105,8 @@ std::filesystem::path ResultsOf(const CLI::App& verb) {
 
 int RunCommand(Command& command, const CLI::App& verb, const InstrumentLog& log, LoggedRun run,
                Console& console) {
-  if (const Status open = CheckLog(log); !open) return Report(command.Name(), open.error(), console);
+  if (const Status open = CheckLog(log); !open)
+    return Report(command.Name(), open.error(), console);
   const Result<int> result = command.Run(console);
   run.verb = command.Name();
   run.results = ResultsOf(verb);
