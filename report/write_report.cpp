@@ -5,6 +5,7 @@
 #include "base/json_file.h"
 #include "base/numbers.h"
 #include "report/acceptance_report.h"
+#include "report/report_attachments.h"
 #include "report/report_blocks.h"
 
 namespace telestrain {
@@ -90,6 +91,8 @@ Status WriteReport(const std::filesystem::path& results, const ReportOptions& op
                               ReadJson(path, "telestrain.results/1", "telestrain report"));
   TELESTRAIN_ASSIGN_OR_RETURN(const std::string bytes, ReadFile(path));
   values["file"] = {{"results_sha256", Sha256Hex(bytes)}};
+  TELESTRAIN_ASSIGN_OR_RETURN(std::vector<PdfAttachment> attachments, ReportAttachments(results));
+  values["tables"].push_back(AttachmentsTable(attachments));
   TELESTRAIN_ASSIGN_OR_RETURN(const auto pdf, PdfDocument::Create(options.level));
   PageFlow flow(*pdf, Look{});
   flow.StartPage();
@@ -98,6 +101,7 @@ Status WriteReport(const std::filesystem::path& results, const ReportOptions& op
     TELESTRAIN_RETURN_IF_ERROR(
         DrawBlock(context, "/blocks/" + std::to_string(i), layout.blocks()[i]));
   DrawPageFrames(context);
+  for (PdfAttachment& attachment : attachments) pdf->Attach(std::move(attachment));
   TELESTRAIN_ASSIGN_OR_RETURN(const std::string file,
                               pdf->Save(InfoOf(layout, values), bytes + layout.json().dump()));
   return WriteFileAtomically(results / "report.pdf", file);

@@ -48,6 +48,13 @@ int GivePassword(char* buffer, int size, int, void* user) {
 
 using UiMethodPtr = OpenSslPtr<UI_METHOD, UI_destroy_method>;
 
+void Take(const OSSL_STORE_INFO* info, Loaded* loaded) {
+  const int type = OSSL_STORE_INFO_get_type(info);
+  if (type == OSSL_STORE_INFO_PKEY) loaded->keys.emplace_back(OSSL_STORE_INFO_get1_PKEY(info));
+  if (type == OSSL_STORE_INFO_CERT)
+    loaded->certificates.push_back(DerOf(OSSL_STORE_INFO_get0_CERT(info), i2d_X509));
+}
+
 Status LoadSource(const std::string& source, Password& password, Loaded* loaded) {
   const UiMethodPtr ui(UI_UTIL_wrap_read_pem_callback(&GivePassword, 0));
   password.source = source;
@@ -56,15 +63,12 @@ Status LoadSource(const std::string& source, Password& password, Loaded* loaded)
   if (!store) return BadInput(source + ": cannot be opened: " + OpenSslReason());
   const std::size_t before = loaded->keys.size() + loaded->certificates.size();
   bool failed = false;
+  ERR_clear_error();
   while (OSSL_STORE_eof(store.get()) == 0) {
     const StoreInfoPtr info(OSSL_STORE_load(store.get()));
-    failed = failed || (!info && OSSL_STORE_error(store.get()) != 0);
-    if (!info) continue;
-    const int type = OSSL_STORE_INFO_get_type(info.get());
-    if (type == OSSL_STORE_INFO_PKEY)
-      loaded->keys.emplace_back(OSSL_STORE_INFO_get1_PKEY(info.get()));
-    if (type == OSSL_STORE_INFO_CERT)
-      loaded->certificates.push_back(DerOf(OSSL_STORE_INFO_get0_CERT(info.get()), i2d_X509));
+    // The end of a file is an error too, but one without a reason.
+    failed = failed || (!info && ERR_peek_last_error() != 0);
+    if (info) Take(info.get(), loaded);
   }
   if (password.error) return *password.error;
   const std::string reason = OpenSslReason();

@@ -24,8 +24,8 @@ class SignCommand : public Command {
         ->required();
     app.add_option("--role", arguments_.role, "who signs; each role once")
         ->required()
-        ->check(CLI::IsMember(std::vector<std::string>(kSigningRoles.begin(),
-                                                       kSigningRoles.end())));
+        ->check(
+            CLI::IsMember(std::vector<std::string>(kSigningRoles.begin(), kSigningRoles.end())));
     AddKeyOptions(app);
     app.add_option("--name", arguments_.name, "signer's name (default: the certificate's)");
     app.add_option("--reason", arguments_.reason, "why, as 'Results checked'");
@@ -46,7 +46,8 @@ class SignCommand : public Command {
     auto* cert = app.add_option("--cert", arguments_.certificate, "its certificate, PEM");
     key->needs(cert)->excludes(p12);
     cert->needs(key);
-    app.add_option("--chain", arguments_.chain, "PEM file of the authorities between it and a root");
+    app.add_option("--chain", arguments_.chain,
+                   "PEM file of the authorities between it and a root");
     app.add_option("--password-file", arguments_.password_file,
                    "file whose first line unlocks the key (or set TELESTRAIN_KEY_PASSWORD; else a "
                    "terminal is asked)");

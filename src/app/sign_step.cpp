@@ -88,9 +88,8 @@ Json EntryOf(const SignArguments& arguments, const std::string& before,
   return {{"role", arguments.role},
           {"signer", signed_report.signer},
           {"certificate_sha256", signed_report.fingerprint},
-          {"file", fs::path(arguments.out.empty() ? arguments.report : arguments.out)
-                       .filename()
-                       .string()},
+          {"file",
+           fs::path(arguments.out.empty() ? arguments.report : arguments.out).filename().string()},
           {"sha256_before", Sha256Hex(before)},
           {"sha256_after", Sha256Hex(signed_report.bytes)}};
 }
@@ -107,8 +106,8 @@ Result<int> SignStep(const SignArguments& arguments, Console& console) {
                               SignReport(arguments.report, before, key, options));
   TELESTRAIN_RETURN_IF_ERROR(WriteFileAtomically(target, signed_report.bytes));
   if (trail) {
-    TELESTRAIN_RETURN_IF_ERROR(trail->Append("sign", EntryOf(arguments, before, signed_report),
-                                             IsoTime(options.time_s)));
+    TELESTRAIN_RETURN_IF_ERROR(
+        trail->Append("sign", EntryOf(arguments, before, signed_report), IsoTime(options.time_s)));
     TELESTRAIN_RETURN_IF_ERROR(trail->Sync());
   }
   console.Say("signed     " + target + " as " + options.role + ": " + signed_report.signer +
