@@ -5,6 +5,7 @@
 #include "base/json_file.h"
 #include "base/numbers.h"
 #include "report/acceptance_report.h"
+#include "report/dcc/dcc.h"
 #include "report/results_parts.h"
 
 namespace telestrain {
@@ -164,8 +165,10 @@ Result<Outcome> MakeResults(const std::filesystem::path& results, const ReportSc
   TELESTRAIN_ASSIGN_OR_RETURN(ResultTable evidence, EvidenceTable(results));
   draft.AddTable(std::move(evidence));
   const Outcome outcome = OutcomeOf(draft);
-  TELESTRAIN_RETURN_IF_ERROR(WriteJson(
-      results / "results.json", ResultsJson(std::move(draft), parts.inputs, outcome.verdict)));
+  const Json json = ResultsJson(std::move(draft), parts.inputs, outcome.verdict);
+  TELESTRAIN_RETURN_IF_ERROR(WriteJson(results / "results.json", json));
+  TELESTRAIN_ASSIGN_OR_RETURN(const std::string dcc, MakeDcc(json, parts.calibration));
+  TELESTRAIN_RETURN_IF_ERROR(WriteFileAtomically(results / "dcc.xml", dcc));
   return outcome;
 }
 

@@ -30,7 +30,7 @@ const std::vector<std::string>& OutputsOf(Step step) {
       {Step::kMeasure,
        {"strain.csv", "strain_components.csv", "strain.json", "strain_states.jsonl"}},
       {Step::kRender, {}},  // the standard pictures, whose number depends on the states
-      {Step::kReport, {"results.json", "report.pdf"}},
+      {Step::kReport, {"results.json", "dcc.xml", "report.pdf"}},
       {Step::kReview, {"review.html"}}};
   return kOutputs.at(step);
 }
