@@ -31,7 +31,7 @@ Status DrawErrors(const ReportContext& context, const PageBox& box,
     reach = std::max(reach, 1.05 * (std::abs(p.error) + p.expanded_uncertainty));
   }
   const double margin = high > low ? 0.04 * (high - low) : 0.5;
-  const auto translate = [&](const std::string& text) { return context.layout.Translate(text); };
+  const auto translate = [&](const std::string& text) { return context.layout.Say(text); };
   Plot plot(context.flow, box,
             {translate(chart.x_label), low - margin, high + margin, false, false},
             {translate(chart.y_label), -reach, reach});
@@ -91,8 +91,8 @@ Status DrawStrainHysteresis(const ReportContext& context, const PageBox& box) {
   return DrawErrors(context, box, points,
                     {"Gauges, change / µε",
                      "Camera - gauges / µε",
-                     {{context.layout.Translate("loading"), Marker::kDot, look.measured},
-                      {context.layout.Translate("unloading"), Marker::kSquare, look.reference}}});
+                     {{context.layout.Say("loading"), Marker::kDot, look.measured},
+                      {context.layout.Say("unloading"), Marker::kSquare, look.reference}}});
 }
 
 }  // namespace telestrain

@@ -43,36 +43,43 @@ Result<Parts> ReadParts(const std::filesystem::path& results) {
   return parts;
 }
 
-std::string RuleSentence(const Acceptance& acceptance) {
-  const std::string k = FormatShortest(acceptance.coverage_factor);
+Json RuleSentence(const Acceptance& acceptance) {
+  const std::map<std::string, Json> values{{"k", FormatShortest(acceptance.coverage_factor)}};
   if (acceptance.rule == DecisionRule::kSimple)
-    return "Decision rule: simple acceptance; pass if |result| ≤ limit, fail otherwise. The "
-           "expanded uncertainty U (k = " +
-           k + ") is stated and not used for the decision.";
-  return "Decision rule: guarded after ISO 14253-1; pass if |result| + U ≤ limit, fail if "
-         "|result| - U > limit, in doubt between. U is the expanded uncertainty, k = " +
-         k +
-         "; a result that has no U by its nature is compared directly, one whose U is missing is "
-         "not decided.";
+    return Phrase(
+        "Decision rule: simple acceptance; pass if |result| ≤ limit, fail otherwise. The expanded "
+        "uncertainty U (k = {{k}}) is stated and not used for the decision.",
+        values);
+  return Phrase(
+      "Decision rule: guarded after ISO 14253-1; pass if |result| + U ≤ limit, fail if "
+      "|result| - U > limit, in doubt between. U is the expanded uncertainty, k = {{k}}; a result "
+      "that has no U by its nature is compared directly, one whose U is missing is not decided.",
+      values);
 }
 
 // Limits that were asked for and could not be decided, so that a pass never hides them.
-std::string UndecidedSentence(const ResultsDraft& draft) {
-  std::string names;
+bool IsUndecided(const Quantity& quantity) {
+  return quantity.limit && quantity.verdict.value_or(Verdict::kUndecided) == Verdict::kUndecided;
+}
+
+Json UndecidedSentence(const ResultsDraft& draft) {
+  std::vector<Json> labels;
   for (const Quantity& quantity : draft.quantities)
-    if (quantity.limit && quantity.verdict.value_or(Verdict::kUndecided) == Verdict::kUndecided)
-      names += (names.empty() ? "" : "; ") + quantity.label;
-  return names.empty() ? "" : "Not decided although a limit is set: " + names + ".";
+    if (IsUndecided(quantity)) labels.push_back(quantity.label);
+  if (labels.empty()) return "";
+  return Phrase("Not decided although a limit is set: {{quantities}}.",
+                {{"quantities", JoinPhrases(labels, "; ")}});
 }
 
 ResultTable SummaryTable(const ResultsDraft& draft) {
-  ResultTable table("summary", "Summary of results",
-                    {{"Quantity", ""},
-                     {"Result", ""},
-                     {"U (k = " + FormatShortest(draft.acceptance.coverage_factor) + ")", ""},
-                     {"Limit", ""},
-                     {"Unit", ""},
-                     {"Verdict", ""}});
+  ResultTable table(
+      "summary", "Summary of results",
+      {{"Quantity", ""},
+       {"Result", ""},
+       {Phrase("U (k = {{k}})", {{"k", FormatShortest(draft.acceptance.coverage_factor)}}), ""},
+       {"Limit", ""},
+       {"Unit", ""},
+       {"Verdict", ""}});
   for (const Quantity& quantity : draft.quantities) {
     if (!quantity.in_summary) continue;
     const Json json = QuantityJson(quantity, draft.acceptance.coverage_factor);
@@ -139,7 +146,8 @@ Outcome OutcomeOf(const ResultsDraft& draft) {
     if (!quantity.is_check || quantity.verdict != Verdict::kPass)
       verdicts.push_back(quantity.verdict.value_or(Verdict::kUndecided));
   Outcome outcome{VerdictName(OverallVerdict(verdicts)), false};
-  const bool all_decided = UndecidedSentence(draft).empty();
+  const bool all_decided =
+      std::none_of(draft.quantities.begin(), draft.quantities.end(), IsUndecided);
   if (outcome.verdict == "pass" && !all_decided) outcome.verdict = "undecided";
   const bool measured = std::any_of(draft.measured.begin(), draft.measured.end(),
                                     [](const Json& section) { return section == true; });

@@ -52,7 +52,7 @@ Status DrawRulerErrors(const ReportContext& context, const PageBox& box) {
   double reach = 1.15 * limit.value_or(0);
   for (const Sample& sample : samples)
     reach = std::max(reach, 1.05 * (std::abs(sample.value) + sample.expanded_uncertainty));
-  const auto translate = [&](const char* text) { return context.layout.Translate(text); };
+  const auto translate = [&](const char* text) { return context.layout.Say(text); };
   const double last = static_cast<double>(samples.size()) + 0.5;
   Plot plot(context.flow, box, {translate("Ruler image, row of the table"), 0.5, last, true, false},
             {translate("E / µm"), -reach, reach});
@@ -75,7 +75,7 @@ Status DrawRulerErrors(const ReportContext& context, const PageBox& box) {
     if (std::any_of(samples.begin(), samples.end(),
                     [&](const Sample& s) { return s.verdict == verdict; }))
       legend.push_back(
-          {std::string("E ± U, ") + verdict, MarkerOf(verdict), look.OfVerdict(verdict)});
+          {"E ± U, " + context.layout.Say(verdict), MarkerOf(verdict), look.OfVerdict(verdict)});
   if (legend.empty()) legend.push_back({"E ± U", Marker::kDot, look.measured});
   plot.DrawLegend(legend);
   return {};
@@ -116,7 +116,7 @@ Status DrawStrainStates(const ReportContext& context, const PageBox& box) {
     x.push_back(static_cast<double>(x.size()));
     y.push_back(state.at_gauges.value);
   }
-  const auto translate = [&](const char* text) { return context.layout.Translate(text); };
+  const auto translate = [&](const char* text) { return context.layout.Say(text); };
   Plot plot(context.flow, box,
             {translate("State, 0 is the reference"), -0.5, x.back() + 0.5, true, false},
             {translate("Axial strain / µε"), low, high});
@@ -150,7 +150,7 @@ Status DrawStrainGauges(const ReportContext& context, const PageBox& box) {
     high = std::max({high, state.at_gauges.value, *state.gauges});
   }
   const double margin = 0.06 * (high - low);
-  const auto translate = [&](const char* text) { return context.layout.Translate(text); };
+  const auto translate = [&](const char* text) { return context.layout.Say(text); };
   Plot plot(context.flow, box,
             {translate("Gauges, change / µε"), low - margin, high + margin, false, false},
             {translate("Camera at the gauges / µε"), low - margin, high + margin, false, false});
@@ -184,7 +184,7 @@ Status DrawStrainErrors(const ReportContext& context, const PageBox& box) {
     DrawNoData(context, box);
     return {};
   }
-  const auto translate = [&](const char* text) { return context.layout.Translate(text); };
+  const auto translate = [&](const char* text) { return context.layout.Say(text); };
   const double last = static_cast<double>(states.size()) - 0.5;
   Plot plot(context.flow, box, {translate("State, 0 is the reference"), -0.5, last, true, false},
             {translate("Camera - gauges / µε"), -reach, reach});
@@ -213,11 +213,14 @@ void DrawNoData(const ReportContext& context, const PageBox& box) {
   context.flow.pdf().StrokeBox(box, {look.line, 0.6});
   context.flow.pdf().DrawText(look.Note(),
                               {box.left_pt + box.width_pt / 2, box.bottom_pt + box.height_pt / 2},
-                              context.layout.Translate("not measured"), Align::kCenter);
+                              context.layout.Say("not measured"), Align::kCenter);
 }
 
-Status DrawChart(const ReportContext& context, const std::string& name, const PageBox& box) {
-  using Draw = Status (*)(const ReportContext&, const PageBox&);
+namespace {
+
+using Draw = Status (*)(const ReportContext&, const PageBox&);
+
+const std::map<std::string, Draw>& Charts() {
   static const std::map<std::string, Draw> kDraw = {
       {"residual-field", DrawResidualField},
       {"residual-histogram", DrawResidualHistogram},
@@ -238,7 +241,19 @@ Status DrawChart(const ReportContext& context, const std::string& name, const Pa
       {"uncertainty-of-everything", DrawProjectionUncertaintyOfEverything},
       {"pinhole-rms", DrawPinholeRms},
       {"pinhole-ruler", DrawPinholeRuler}};
-  return kDraw.at(name)(context, box);
+  return kDraw;
+}
+
+}  // namespace
+
+std::vector<std::string> ChartNames() {
+  std::vector<std::string> names;
+  for (const auto& [name, draw] : Charts()) names.push_back(name);
+  return names;
+}
+
+Status DrawChart(const ReportContext& context, const std::string& name, const PageBox& box) {
+  return Charts().at(name)(context, box);
 }
 
 }  // namespace telestrain

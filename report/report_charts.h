@@ -10,6 +10,8 @@ namespace telestrain {
 // Draws the chart `name` of a layout into `box`; a chart without data says so in its place. Fails
 // (kBadInput) when residuals.csv is malformed.
 Status DrawChart(const ReportContext& context, const std::string& name, const PageBox& box);
+// What DrawChart can draw.
+std::vector<std::string> ChartNames();
 
 // The three charts of the calibration's residuals, from calibration.json and residuals.csv.
 Status DrawResidualField(const ReportContext& context, const PageBox& box);

@@ -8,16 +8,6 @@
 
 namespace telestrain {
 
-Json Phrase(const std::string& pattern, const std::map<std::string, std::string>& values) {
-  std::string printed = pattern;
-  for (const auto& [name, value] : values) {
-    const std::string place = "{{" + name + "}}";
-    for (std::size_t at = 0; (at = printed.find(place, at)) != std::string::npos;
-         at += value.size())
-      printed.replace(at, place.size(), value);
-  }
-  return {{"printed", printed}, {"pattern", pattern}, {"values", values}};
-}
 namespace {
 
 Json NumberOrNull(std::optional<double> value) { return value ? Json(*value) : Json(nullptr); }
@@ -72,7 +62,7 @@ Json VerdictCell(Verdict verdict) {
 ResultTable::ResultTable(std::string id, std::string title, std::vector<ResultColumn> columns) {
   json_ = {{"id", std::move(id)}, {"title", std::move(title)}, {"columns", Json::array()}};
   for (const ResultColumn& column : columns)
-    json_["columns"].push_back({{"name", column.name}, {"unit", column.unit}});
+    json_["columns"].push_back(Json{{"name", column.name}, {"unit", column.unit}});
   json_["rows"] = Json::array();
 }
 
@@ -81,8 +71,8 @@ void ResultTable::AddRow(std::vector<Json> cells) {
   json_["rows"].push_back(std::move(cells));
 }
 
-void ResultTable::AddFact(const std::string& name, Json value, const std::string& unit) {
-  AddRow({name, std::move(value), unit});
+void ResultTable::AddFact(Json name, Json value, const std::string& unit) {
+  AddRow({std::move(name), std::move(value), unit});
 }
 
 ResultTable FactTable(std::string id, std::string title) {
@@ -106,14 +96,15 @@ void ResultsDraft::AddQuantity(Quantity quantity) {
   quantities.push_back(std::move(quantity));
 }
 
-std::string DecisionWords(const Quantity& quantity, const Acceptance& acceptance) {
+Json DecisionWords(const Quantity& quantity, const Acceptance& acceptance) {
   constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
   const double uncertainty =
       quantity.expanded_uncertainty.value_or(quantity.has_uncertainty ? kMissing : 0);
   const bool decided = quantity.verdict.value_or(Verdict::kUndecided) != Verdict::kUndecided;
-  return DecideInWords(decided ? quantity.value.value_or(kMissing) : kMissing, uncertainty,
-                       quantity.limit.value_or(kMissing), acceptance.rule, quantity.unit)
-      .words;
+  const Decision decision =
+      DecideInWords(decided ? quantity.value.value_or(kMissing) : kMissing, uncertainty,
+                    quantity.limit.value_or(kMissing), acceptance.rule, quantity.unit);
+  return Phrase(decision.pattern, {decision.values.begin(), decision.values.end()});
 }
 
 Json QuantityJson(const Quantity& quantity, double coverage_factor) {

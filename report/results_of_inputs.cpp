@@ -99,7 +99,8 @@ void AddFiles(const Json& inputs, const Json& strain, ResultsDraft& draft) {
       if (found != measured.end()) measured.erase(found);
     }
   }
-  for (const auto& [path, sha256] : measured) table.AddRow({path + " (watched)", kNoValue, sha256});
+  for (const auto& [path, sha256] : measured)
+    table.AddRow({Phrase("{{path}} (watched)", {{"path", path}}), kNoValue, sha256});
   draft.AddTable(std::move(table));
 }
 

@@ -18,11 +18,11 @@ void AddRareTerms(const Json& calibration, ResultTable& table) {
     const auto add = [&](const char* name, const char* pointer) {
       const auto bow_um = NumberAt(board, pointer);
       if (bow_um && *bow_um != 0)
-        table.AddFact("Bow of board " + TextAt(board, "/group", "?") + name, FixedCell(bow_um, 2),
+        table.AddFact(Phrase(name, {{"board", TextAt(board, "/group", "?")}}), FixedCell(bow_um, 2),
                       "µm");
     };
-    add(" along x", "/bow_x_um");
-    add(" along y", "/bow_y_um");
+    add("Bow of board {{board}} along x", "/bow_x_um");
+    add("Bow of board {{board}} along y", "/bow_y_um");
   }
 }
 
@@ -53,7 +53,7 @@ void AddDistortion(const Json& calibration, const Acceptance& acceptance, Result
     std::optional<double> expanded_ppm;
     if (const auto sigma = SigmaOf(calibration, key))
       expanded_ppm = acceptance.Expanded(kPpm * *sigma);
-    table.AddFact("Distortion " + std::string(key).substr(0, 2),
+    table.AddFact(Phrase("Distortion {{term}}", {{"term", std::string(key).substr(0, 2)}}),
                   UncertainCell(kPpm * *value, expanded_ppm, SignificantCell(kPpm * *value, 4)),
                   unit);
   }

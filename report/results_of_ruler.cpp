@@ -25,7 +25,8 @@ LengthError DecideImage(const Json& image, const Acceptance& acceptance) {
   error.quantity.has_uncertainty = true;
   error.quantity.limit = acceptance.ruler_mpe_um;
   error.quantity.decimals = 2;
-  error.quantity.label = "Length error E, worst image (" + TextAt(image, "/image", "?") + ")";
+  error.quantity.label =
+      Phrase("Length error E, worst image ({{image}})", {{"image", TextAt(image, "/image", "?")}});
   error.quantity.verdict = acceptance.DecideQuantity(error.quantity);
   return error;
 }
@@ -71,7 +72,8 @@ void AddRejected(const Json& ruler, ResultsDraft& draft) {
                     {{"Image", ""}, {"Reason", ""}});
   for (const Json& image : ListAt(ruler, "/images"))
     if (!NumberAt(image, "/error_um"))
-      table.AddRow({TextAt(image, "/image", "?"), TextAt(image, "/rejected_because", "no value")});
+      table.AddRow({TextAt(image, "/image", "?"),
+                    PhraseOfText(TextAt(image, "/rejected_because", "no value"))});
   if (!table.empty()) draft.AddTable(std::move(table));
 }
 

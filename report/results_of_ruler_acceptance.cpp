@@ -57,12 +57,13 @@ void AddRulerAcceptance(const Json& acceptance, ResultsDraft& draft) {
   if (!acceptance.is_object() || ListAt(acceptance, "/images").empty()) return;
   AddTrends(acceptance, draft);
   AddFacts(acceptance, draft);
-  draft.sentences["ruler_count"] = TextAt(acceptance, "/printed_count");
-  std::string note = TextAt(acceptance, "/repeatability/method");
-  if (!note.empty()) note = "Repeatability: " + note + ".";
+  draft.sentences["ruler_count"] = PhraseOfText(TextAt(acceptance, "/printed_count"));
+  std::vector<Json> notes;
+  if (const std::string method = TextAt(acceptance, "/repeatability/method"); !method.empty())
+    notes.push_back(Phrase("Repeatability: {{method}}.", {{"method", PhraseOfText(method)}}));
   for (const Json& missing : ListAt(acceptance, "/not_in_budget"))
-    if (missing.is_string()) note += " " + missing.get<std::string>();
-  draft.sentences["ruler_note"] = note;
+    if (missing.is_string()) notes.push_back(PhraseOfText(missing.get<std::string>()));
+  draft.sentences["ruler_note"] = JoinPhrases(notes);
 }
 
 }  // namespace telestrain

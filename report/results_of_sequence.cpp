@@ -90,7 +90,7 @@ void AddClasses(const Json& sequence, ResultsDraft& draft) {
                      {"Resolution", ""},
                      {"Its limit", ""},
                      {"Unit", ""}});
-  std::string not_covered;
+  std::vector<Json> not_covered;
   for (const char* pointer : {"/iso9513", "/astm_e83"}) {
     const Json& result = EntryAt(sequence, pointer);
     if (!result.is_object()) continue;
@@ -104,12 +104,12 @@ void AddClasses(const Json& sequence, ResultsDraft& draft) {
                   ExactCell(NumberAt(result, "/resolution_limit")), TextAt(result, "/unit", "?")});
     not_covered.clear();
     for (const Json& sentence : ListAt(result, "/not_covered"))
-      if (sentence.is_string())
-        not_covered += (not_covered.empty() ? "" : " ") + sentence.get<std::string>();
+      if (sentence.is_string()) not_covered.push_back(PhraseOfText(sentence.get<std::string>()));
   }
   if (table.empty()) return;
   draft.AddTable(std::move(table));
-  draft.sentences["class_note"] = "What the classes do not cover. " + not_covered;
+  not_covered.insert(not_covered.begin(), "What the classes do not cover.");
+  draft.sentences["class_note"] = JoinPhrases(not_covered);
 }
 
 void AddGaugeOutliers(const Json& strain, ResultsDraft& draft) {
@@ -135,7 +135,7 @@ void AddSequence(const Json& strain, ResultsDraft& draft) {
   AddCycles(sequence, draft);
   AddClasses(sequence, draft);
   AddGaugeOutliers(strain, draft);
-  draft.sentences["warm_up"] = TextAt(sequence, "/warm_up/printed");
+  draft.sentences["warm_up"] = PhraseOfText(TextAt(sequence, "/warm_up/printed"));
 }
 
 }  // namespace telestrain

@@ -92,7 +92,8 @@ void AddBeam(const Json& strain, ResultsDraft& draft) {
 void AddReasons(const std::string& state, const Json& counts, ResultTable& table) {
   if (!counts.is_object()) return;
   for (const auto& [reason, number] : counts.items())
-    if (number.is_number()) table.AddRow({state, reason, CountCell(number.get<double>())});
+    if (number.is_number())
+      table.AddRow({state, PhraseOfText(reason), CountCell(number.get<double>())});
 }
 
 // The points lost when the reference image was matched, then all reasons over all states, so that
@@ -132,10 +133,11 @@ void AddComparison(const Json& strain, ResultsDraft& draft) {
   draft.AddQuantity(error);
   if (!has_gauges) return;
   draft.sentences["strain_uncertainty"] =
-      std::string(
-          "U of the strain error is the coverage factor times the RMS of the standard "
-          "uncertainties over the states compared: the camera's") +
-      (with_gauges ? " and the gauges'." : "; the gauges' own uncertainty is not included.");
+      with_gauges ? "U of the strain error is the coverage factor times the RMS of the standard "
+                    "uncertainties over the states compared: the camera's and the gauges'."
+                  : "U of the strain error is the coverage factor times the RMS of the standard "
+                    "uncertainties over the states compared: the camera's; the gauges' own "
+                    "uncertainty is not included.";
   ResultTable table = FactTable("strain-comparison", "Camera against gauges");
   const auto fixed = [&](const char* pointer, int decimals) {
     return FixedCell(NumberAt(comparison, pointer), decimals);
@@ -220,7 +222,8 @@ void AddStereoAngles(const Json& calibration, ResultTable& table) {
   }
   for (const std::string& group : groups)
     if (const auto angle = StereoAngle_deg(calibration, group))
-      table.AddFact("Stereo angle, group " + group, FixedCell(angle, 2), "°");
+      table.AddFact(Phrase("Stereo angle, group {{group}}", {{"group", group}}),
+                    FixedCell(angle, 2), "°");
 }
 
 // The reporting table of the iDICs good practices guide.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/result.h"
+#include "report/audit/ed25519_key.h"
 #include "report/json_lookup.h"
 
 namespace telestrain {
@@ -32,11 +33,13 @@ class AuditTrail {
  public:
   // Reads and checks the whole chain; a file that does not exist is an empty trail. A last line
   // that a killed program left without its end is dropped. `key_file`: the instrument's private
-  // key (PEM, Ed25519), or empty. Fails (kBadInput) with the line and what is wrong with it.
+  // key (PEM, Ed25519), or empty; with it, every line must be signed by it. Fails (kBadInput) with
+  // the line and what is wrong with it.
   static Result<AuditTrail> Open(const std::filesystem::path& file,
                                  const std::filesystem::path& key_file = {});
 
-  // Adds a line. The file has it, synced, when `Sync` returns.
+  // Adds a line. The file has it, synced, when `Sync` returns. Fails (kBadInput) for a body that
+  // could not be read again (nested deeper than 64).
   Status Append(const std::string& type, const Json& body, const std::string& time);
   Status Sync();
 
@@ -48,13 +51,15 @@ class AuditTrail {
 
  private:
   std::filesystem::path file_;
-  std::filesystem::path key_file_;
+  std::optional<Ed25519Key> key_;
   std::vector<AuditEntry> entries_;
   std::string unsynced_;
+  std::optional<std::uintmax_t> whole_bytes_;  // of a file whose last line is torn
 };
 
 // The entries of a trail's text. `public_key_pem`: when given, every line must be signed by it.
-// Fails (kBadInput) with the line and what is wrong: not JSON, seq, prev, hash, signature.
+// Fails (kBadInput) with the line and what is wrong: cut short, not JSON, seq, prev, hash,
+// signature.
 Result<std::vector<AuditEntry>> ReadAuditTrail(const std::string& name, const std::string& text,
                                                const std::string& public_key_pem = "");
 

@@ -1,6 +1,7 @@
 #include "app/steps.h"
 
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "app/results_folder.h"
 #include "base/files.h"
@@ -8,7 +9,7 @@
 #include "base/numbers.h"
 #include "calibration/calibration_file.h"
 #include "measurement/ruler_acceptance.h"
-#include "report/acceptance_report.h"
+#include "report/template_list.h"
 #include "target/corner_import.h"
 
 namespace telestrain {
@@ -25,8 +26,9 @@ Status SayWhy(const fs::path& results, Console& console) {
     for (const auto& quantity : json.at("quantities")) {
       const auto text = [&](const char* key) {
         const auto at = quantity.find(key);
-        return at != quantity.end() && at->is_string() ? at->template get<std::string>()
-                                                       : std::string("-");
+        if (at == quantity.end()) return std::string("-");
+        const auto& entry = at->is_object() ? at->at("printed") : *at;  // a Phrase
+        return entry.is_string() ? entry.template get<std::string>() : std::string("-");
       };
       if (quantity.at("limit").is_null() || text("verdict") == "pass") continue;
       console.Say("  " + text("label") + ": " + text("printed") + " " + text("unit") + " (U " +
@@ -37,6 +39,21 @@ Status SayWhy(const fs::path& results, Console& console) {
     return BadInput((results / "results.json").string() + ": " + e.what());
   }
   return {};
+}
+
+// What the layout says of the report's content, with the earlier results that it needs.
+Result<ReportScope> ScopeOf(const ReportOptions& options, const fs::path& against) {
+  TELESTRAIN_ASSIGN_OR_RETURN(LayoutScope layout, ScopeOfLayout(options));
+  if (layout.against_earlier && against.empty())
+    return Error{ErrorKind::kUsage,
+                 "the report '" + options.name +
+                     "' compares with an earlier one; name its results folder or its report.pdf "
+                     "with --against EARLIER"};
+  if (!layout.against_earlier && !against.empty())
+    return Error{ErrorKind::kUsage, "--against: the report '" + options.name +
+                                        "' shows no comparison; use --template reverification"};
+  layout.scope.earlier = against;
+  return layout.scope;
 }
 
 }  // namespace
@@ -132,19 +149,27 @@ Status VerifyStep(const Session& session, const fs::path& results, Console& cons
   return {};
 }
 
-Result<int> ReportStep(const fs::path& results, const fs::path& templates, Console& console) {
+Result<int> ReportStep(const fs::path& results, const ReportChoices& choices, Console& console) {
   TELESTRAIN_RETURN_IF_ERROR(RequireConsistent(results, Step::kReport));
   std::error_code code;
   if (!fs::exists(results / "calibration.json", code))
     return BadInput((results / "calibration.json").string() +
                     ": does not exist; run 'telestrain calibrate' first");
+  std::set<std::string> untranslated;
+  const ReportOptions options{choices.templates, choices.layout, choices.language, choices.level,
+                              [&](const std::string& text) { untranslated.insert(text); }};
+  // A wrong layout must be known before an older report goes.
+  TELESTRAIN_ASSIGN_OR_RETURN(const ReportScope scope, ScopeOf(options, choices.against));
   TELESTRAIN_RETURN_IF_ERROR(RemoveOutputsFrom(results, Step::kReport));
-  TELESTRAIN_ASSIGN_OR_RETURN(const Outcome outcome, MakeResults(results));
-  TELESTRAIN_RETURN_IF_ERROR(
-      WriteReport(results, {templates, "acceptance", "en", ArchiveLevel::k3a}));
+  TELESTRAIN_ASSIGN_OR_RETURN(const Outcome outcome, MakeResults(results, scope));
+  TELESTRAIN_RETURN_IF_ERROR(WriteReport(results, options));
   console.Say("report     " +
               fs::absolute(results / "report.pdf", code).lexically_normal().string());
   console.Say("verdict    " + outcome.verdict);
+  if (!untranslated.empty())
+    console.Note("  printed in English for want of a translation: " +
+                 CountText(untranslated.size(), "text") + ", the first is '" +
+                 *untranslated.begin() + "'");
   TELESTRAIN_RETURN_IF_ERROR(SayWhy(results, console));
   return outcome.accepted ? 0 : 1;
 }
