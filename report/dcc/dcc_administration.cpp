@@ -61,7 +61,7 @@ void WriteCoreData(DccXml& xml, const Json& results) {
   xml.Leaf("dcc:usedLangCodeISO639_1", "en");
   xml.Leaf("dcc:mandatoryLangCodeISO639_1", "en");
   xml.Leaf("dcc:uniqueIdentifier", UniqueIdentifier(results));
-  xml.Leaf("dcc:receiptDate", DocumentDay(results, {"received", "receipt_date"}));
+  xml.Leaf("dcc:receiptDate", DocumentDay(results, {"received", "receipt_date", "date_received"}));
   const auto [begin, end] = PerformanceDates(results);
   xml.Leaf("dcc:beginPerformanceDate", begin.empty() ? kNoDate : begin);
   xml.Leaf("dcc:endPerformanceDate", end.empty() ? kNoDate : end);
@@ -95,7 +95,8 @@ void WritePersons(DccXml& xml, const Json& results) {
     xml.Leaf("dcc:mainSigner", first ? "true" : "false");
     first = false;
   };
-  write(DocumentFact(results, {"authorised_by", "authorized_by", "approver"}), "approver");
+  write(DocumentFact(results, {"authorised_by", "authorized_by", "authoriser", "approver"}),
+        "approver");
   write(DocumentFact(results, {"reviewer"}), "reviewer");
   write(DocumentFactOr(results, {"operator"}), "operator");
 }

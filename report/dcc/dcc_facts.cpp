@@ -26,7 +26,15 @@ std::string Day(const std::string& text) {
 }  // namespace
 
 std::string PrintedOf(const Json& cell) {
-  return cell.is_string() ? cell.get<std::string>() : TextAt(cell, "/printed");
+  if (cell.is_string()) return cell.get<std::string>();
+  if (!cell.is_array()) return TextAt(cell, "/printed");
+  std::string paragraph;
+  for (const Json& sentence : cell) paragraph += PrintedOf(sentence) + " ";
+  return XmlText(paragraph);
+}
+
+std::string PrintedAt(const Json& json, const std::string& pointer) {
+  return PrintedOf(EntryAt(json, pointer));
 }
 
 std::string DocumentFact(const Json& results, std::initializer_list<const char*> keys) {
@@ -52,8 +60,9 @@ std::string DocumentDay(const Json& results, std::initializer_list<const char*> 
 }
 
 std::pair<std::string, std::string> PerformanceDates(const Json& results) {
-  std::string begin = DocumentDay(results, {"measured_from", "begin_date", "measured", "date"});
-  std::string end = DocumentDay(results, {"measured_to", "end_date", "measured"});
+  std::string begin =
+      DocumentDay(results, {"measured_from", "begin_date", "measured", "test_date", "date"});
+  std::string end = DocumentDay(results, {"measured_to", "end_date"});
   if (end.empty()) end = begin;
   return {begin, end};
 }

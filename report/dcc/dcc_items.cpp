@@ -78,7 +78,7 @@ void WritePart(DccXml& xml, const Json& results, const Part& part) {
 void WriteInstrument(DccXml& xml, const Json& results) {
   const auto item = xml.Open("dcc:item", {{"id", "instrument"}});
   const std::string name = DocumentFact(results, {"instrument"});
-  const std::string serial = DocumentFact(results, {"instrument_serial", "serial"});
+  const std::string serial = DocumentFact(results, {"instrument_serial"});
   xml.Text("dcc:name", name.empty() ? "Four-view telecentric camera array" : name);
   if (serial.empty() && !name.empty())
     WriteIdentifications(xml, {{"owner", "Instrument", name}});
@@ -103,7 +103,9 @@ void WriteSpecimen(DccXml& xml, const Json& results) {
   const auto item = xml.Open("dcc:item", {{"id", "specimen"}});
   xml.Text("dcc:name", name);
   xml.Text("dcc:description", DocumentFact(results, {"condition", "item_condition"}));
-  WriteIdentifications(xml, {{"customer", "Item", DocumentFact(results, {"item_serial", "item"})}});
+  WriteIdentifications(xml, {{"customer", "Item",
+                              DocumentFact(results, {"serial_numbers", "item_serial",
+                                                     "serial_number", "serial", "item"})}});
   WriteFacts(xml, results, "dcc:itemQuantities", "dcc:itemQuantity",
              {"Pipe outer diameter, nominal", "Pipe Poisson ratio"});
 }

@@ -25,8 +25,9 @@ std::string DocumentFactOr(const Json& results, std::initializer_list<const char
 std::string DocumentDay(const Json& results, std::initializer_list<const char*> keys);
 // First and last day of the measurement; empty when [document] does not say them.
 std::pair<std::string, std::string> PerformanceDates(const Json& results);
-// The printed text of a cell of results.json.
+// The printed text of a cell of results.json: a text, a number or a Phrase, or a list of them.
 std::string PrintedOf(const Json& cell);
+std::string PrintedAt(const Json& json, const std::string& pointer);
 // The table of this id, or null JSON.
 const Json& TableOf(const Json& results, const std::string& id);
 bool IsMeasured(const Json& results, const std::string& section);

@@ -39,7 +39,7 @@ bool BelongsTo(const Group& group, const Json& quantity) {
 
 void WriteLimits(DccXml& xml, const Json& quantity) {
   // "± 10" or "≤ 10".
-  const std::string printed = TextAt(quantity, "/printed_limit");
+  const std::string printed = PrintedAt(quantity, "/printed_limit");
   const std::size_t blank = printed.find(' ');
   if (!NumberAt(quantity, "/limit") || blank == std::string::npos) return;
   const std::string bound = printed.substr(blank + 1), unit = TextAt(quantity, "/unit");
@@ -70,10 +70,10 @@ void WriteDecision(DccXml& xml, const Json& quantity) {
 }
 
 void WriteQuantity(DccXml& xml, const Json& quantity, double coverage_factor) {
-  const DccNumber number{TextAt(quantity, "/label"),
+  const DccNumber number{PrintedAt(quantity, "/label"),
                          "basic_measuredValue telestrain_" + TextAt(quantity, "/id"),
-                         TextAt(quantity, "/unit"), TextAt(quantity, "/printed"),
-                         TextAt(quantity, "/printed_uncertainty")};
+                         TextAt(quantity, "/unit"), PrintedAt(quantity, "/printed"),
+                         PrintedAt(quantity, "/printed_uncertainty")};
   const auto element = xml.Open("dcc:quantity", {{"refType", number.ref_types}});
   xml.Text("dcc:name", number.label);
   WriteSmallCoverage(xml, number, coverage_factor);

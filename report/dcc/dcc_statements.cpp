@@ -17,15 +17,44 @@ void WriteStatement(DccXml& xml, const std::string& name, const std::string& dec
 
 // Keys of [document] that other parts of the certificate hold.
 bool HasPlace(const std::string& key) {
-  static const std::set<std::string> kKeys = {
-      "number",      "report_number",      "revision",          "country",
-      "laboratory",  "laboratory_address", "customer",          "customer_address",
-      "item",        "instrument",         "procedure",         "operator",
-      "environment", "traceability",       "laboratory_code",   "country_code",
-      "title",       "condition",          "item_condition",    "reviewer",
-      "approver",    "target_certificate", "ruler_certificate", "target_serial",
-      "lens_serial", "camera_serial",      "ruler_serial",      "sensor_serial",
-      "serial",      "instrument_serial",  "item_serial"};
+  static const std::set<std::string> kKeys = {"number",
+                                              "report_number",
+                                              "revision",
+                                              "country",
+                                              "country_code",
+                                              "laboratory",
+                                              "laboratory_address",
+                                              "laboratory_code",
+                                              "customer",
+                                              "customer_address",
+                                              "item",
+                                              "instrument",
+                                              "instrument_serial",
+                                              "serial_numbers",
+                                              "serial_number",
+                                              "serial",
+                                              "item_serial",
+                                              "method",
+                                              "procedure",
+                                              "operator",
+                                              "reviewer",
+                                              "approver",
+                                              "authoriser",
+                                              "authorised_by",
+                                              "authorized_by",
+                                              "environment",
+                                              "traceability",
+                                              "title",
+                                              "condition",
+                                              "item_condition",
+                                              "target_certificate",
+                                              "ruler_certificate",
+                                              "target_serial",
+                                              "ruler_serial",
+                                              "camera_serial",
+                                              "sensor_serial",
+                                              "lens_serial",
+                                              "place"};
   return kKeys.count(key) > 0;
 }
 
@@ -43,13 +72,23 @@ void WriteDates(DccXml& xml, const Json& results) {
                        " stands in its place.");
 }
 
+// dcc:performanceLocation only knows whose place it was.
+void WritePlace(DccXml& xml, const Json& results) {
+  const std::string place = DocumentFact(results, {"place"});
+  if (place.empty()) return;
+  const auto statement = xml.Open("dcc:statement");
+  xml.Text("dcc:name", "Place of the test");
+  const auto location = xml.Open("dcc:location");
+  xml.Text("dcc:further", place);
+}
+
 }  // namespace
 
 void WriteStatements(DccXml& xml, const Json& results) {
   const auto list = xml.Open("dcc:statements");
-  WriteStatement(xml, "Decision rule", TextAt(results, "/decision/printed"), {},
+  WriteStatement(xml, "Decision rule", PrintedAt(results, "/decision/printed"), {},
                  TextAt(results, "/decision/rule") == "simple" ? "" : "ISO 14253-1");
-  WriteStatement(xml, "Limits not decided", TextAt(results, "/decision/printed_undecided"));
+  WriteStatement(xml, "Limits not decided", PrintedAt(results, "/decision/printed_undecided"));
   const std::string traceability = DocumentFact(results, {"traceability"});
   if (traceability.empty())
     WriteStatement(xml, "Traceability", kNotStated);
@@ -59,7 +98,8 @@ void WriteStatements(DccXml& xml, const Json& results) {
   WriteStatement(xml, "What the results relate to",
                  "The results relate only to the items calibrated.");
   WriteDates(xml, results);
-  WriteStatement(xml, "Title", TextAt(results, "/title"));
+  WritePlace(xml, results);
+  WriteStatement(xml, "Title", PrintedAt(results, "/title"));
   const Json& document = EntryAt(results, "/document");
   if (!document.is_object()) return;
   for (const auto& [key, value] : document.items())
@@ -69,7 +109,7 @@ void WriteStatements(DccXml& xml, const Json& results) {
 
 void WriteMethods(DccXml& xml, const Json& results) {
   const auto methods = xml.Open("dcc:usedMethods");
-  const std::string procedure = DocumentFact(results, {"procedure"});
+  const std::string procedure = DocumentFact(results, {"method", "procedure"});
   const auto write = [&](const char* name, const char* about, std::vector<const char*> norms) {
     const auto method = xml.Open("dcc:usedMethod", {{"refType", "basic_calibrationMethod"}});
     xml.Text("dcc:name", name);

@@ -20,7 +20,7 @@ struct Column {
 std::vector<Column> ColumnsOf(const Json& table) {
   std::vector<Column> columns;
   for (const Json& column : ListAt(table, "/columns"))
-    columns.push_back({TextAt(column, "/name"), TextAt(column, "/unit")});
+    columns.push_back({PrintedAt(column, "/name"), PrintedAt(column, "/unit")});
   for (const Json& row : ListAt(table, "/rows"))
     for (std::size_t i = 0; i < columns.size() && i < row.size(); ++i) {
       columns[i].texts.push_back(PrintedOf(row[i]));
@@ -246,7 +246,7 @@ void WriteTable(DccXml& xml, const Json& table, const Json& results) {
   const std::string id = TextAt(table, "/id");
   const double coverage_factor = CoverageFactorOf(results);
   const auto result = xml.Open("dcc:result", {{"refType", RefType(id, "")}});
-  xml.Text("dcc:name", TextAt(table, "/title", id));
+  xml.Text("dcc:name", PrintedAt(table, "/title"));
   const auto data = xml.Open("dcc:data");
   const auto list = xml.Open("dcc:list");
   if (!HoldsFacts(columns)) return ColumnTable(table, results).Write(xml);

@@ -34,7 +34,8 @@ TEST_F(Dcc, QuantitiesAreThoseOfTheResults) {
     const std::string unit = TextAt(entry, "/unit");
     const ReadQuantity read = QuantityOf(quantities, "telestrain_" + TextAt(entry, "/id"));
     ASSERT_EQ(read.values.size(), 1u) << entry.dump();
-    EXPECT_EQ(read.name, TextAt(entry, "/label"));
+    EXPECT_EQ(read.name, Printed(entry["label"]));
+    EXPECT_FALSE(read.name.empty());
     ExpectNumber(read.values[0], TextAt(entry, "/printed"), unit);
     ASSERT_EQ(read.uncertainties.size(), TextAt(entry, "/coverage_factor").empty() ? 0u : 1u);
     if (!read.uncertainties.empty()) {

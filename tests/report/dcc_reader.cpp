@@ -96,6 +96,10 @@ std::vector<std::string> TextsAt(const std::string& xml, const std::string& xpat
   return texts;
 }
 
+std::string Printed(const Json& cell) {
+  return cell.is_string() ? cell.get<std::string>() : TextAt(cell, "/printed");
+}
+
 ReadQuantity QuantityOf(const std::vector<ReadQuantity>& quantities, const std::string& ref_type) {
   for (const ReadQuantity& quantity : quantities)
     for (const std::string& type : Words(quantity.ref_types))

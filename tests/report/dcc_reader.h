@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "report/json_lookup.h"
+
 namespace telestrain {
 
 // One dcc:quantity or dcc:metaData's limit, as it stands in the certificate.
@@ -25,6 +27,9 @@ std::vector<ReadQuantity> ReadQuantities(const std::string& xml);
 
 // The text of every element that the XPath finds (prefixes dcc and si), blanks around it removed.
 std::vector<std::string> TextsAt(const std::string& xml, const std::string& xpath);
+
+// The text that results.json has for the page, in English: of a text, a cell or a Phrase.
+std::string Printed(const Json& cell);
 
 // The first quantity with this refType among its own; an empty one when there is none.
 ReadQuantity QuantityOf(const std::vector<ReadQuantity>& quantities, const std::string& ref_type);

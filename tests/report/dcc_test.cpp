@@ -72,7 +72,7 @@ TEST_F(Dcc, HoldsTheFactsOfTheDocument) {
   expect("//dcc:subItems/dcc:item[2]//dcc:identification/dcc:value", "0998");
   expect("//dcc:dccSoftware/dcc:software/dcc:release", "0.1.0");
   expect("//dcc:usedMethod/dcc:norm", "VDI/VDE 2634 Part 1");
-  expect("//dcc:statement/dcc:declaration", TextAt(results_, "/decision/printed"));
+  expect("//dcc:statement/dcc:declaration", Printed(results_["decision"]["printed"]));
   expect("//dcc:measuringEquipment[@id='ruler']//si:value", "27.6");
   expect("//dcc:measuringEquipment[@id='ruler']//si:value", "0.25");
 }
