@@ -85,7 +85,7 @@ const Json& SchemaChecker::Resolve(const Json& rule) const {
   if (reference.empty()) return rule;
   const Json& found = EntryAt(schema_, reference.substr(1));
   TELESTRAIN_CHECK(reference[0] == '#' && found.is_object(), "a schema refers to " + reference);
-  return found;
+  return &found == &rule ? rule : Resolve(found);
 }
 
 void SchemaChecker::CheckText(const Json& rule, const std::string& pointer, const Json& value) {

@@ -30,20 +30,22 @@ Json Said(const TextCatalogue& texts, const Json& json) {
 }
 
 // Tables of the form name, value, unit have wordings, never data, in their first column.
-bool IsFacts(const Json& table) { return TextAt(table, "/columns/0/name") == "name"; }
+bool IsFacts(const Json& table) {
+  return TextAt(table, "/columns/0/name") == "Name" && TextAt(table, "/columns/1/name") == "Value";
+}
 
 void SayTable(const TextCatalogue& texts, Json& table) {
   if (!table.is_object()) return;
   const bool facts = IsFacts(table);
   table["title"] = texts.SayPhrase(EntryAt(table, "/title"));
   for (Json& column : table["columns"]) {
-    if (!facts) column["name"] = texts.SayPhrase(column["name"]);
+    column["name"] = texts.SayPhrase(column["name"]);
     if (column.contains("unit")) column["unit"] = texts.SayCell(column["unit"]);
   }
   for (Json& row : table["rows"])
     for (std::size_t i = 0; i < row.size(); ++i) {
       const std::string said = facts && i == 0 ? texts.SayPhrase(row[i]) : texts.SayCell(row[i]);
-      if (row[i].is_object())
+      if (row[i].is_object() && !IsPhrase(row[i]))
         row[i]["printed"] = said;
       else
         row[i] = said;
