@@ -5,6 +5,7 @@
 #include "base/json_file.h"
 #include "base/numbers.h"
 #include "report/acceptance_report.h"
+#include "report/dcc/dcc.h"
 #include "report/results_parts.h"
 #include "report/results_scope.h"
 
@@ -219,6 +220,8 @@ Result<Outcome> MakeResults(const std::filesystem::path& results, const ReportSc
   TELESTRAIN_RETURN_IF_ERROR(AddEarlier(parts, scope, draft.tables.back(), draft));
   const Json json = ResultsJson(std::move(draft), scope, parts.inputs, outcome.verdict);
   TELESTRAIN_RETURN_IF_ERROR(WriteJson(results / "results.json", json));
+  TELESTRAIN_ASSIGN_OR_RETURN(const std::string dcc, MakeDcc(json, parts.calibration));
+  TELESTRAIN_RETURN_IF_ERROR(WriteFileAtomically(results / "dcc.xml", dcc));
   return outcome;
 }
 
