@@ -67,7 +67,7 @@ Json AttachmentsTable(const std::vector<PdfAttachment>& attachments) {
     const TrailHead head = HeadOf(attachment.bytes);
     if (head.hash.empty()) continue;
     table["rows"].push_back({"audit head",
-                             "Hash of the last of the entries, which are so many",
+                             "Hash of the last entry; number of entries",
                              {{"value", head.entries}, {"printed", std::to_string(head.entries)}},
                              head.hash});
   }

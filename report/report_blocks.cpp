@@ -5,6 +5,7 @@
 
 #include "report/picture_block.h"
 #include "report/report_charts.h"
+#include "report/result_cells.h"
 #include "report/signature_block.h"
 #include "report/table_block.h"
 #include "report/text_wrap.h"
@@ -31,6 +32,7 @@ PageBox LogoBox(const ReportContext& context) {
 void DrawLogo(const ReportContext& context, const PageBox& box) {
   if (!context.layout.logo()) return;
   context.flow.pdf().FillBox(box, kWhite);
+  const ScopedTag figure(context.flow.pdf(), PdfTag{"Figure", context.layout.Say("Logo"), "", box});
   context.flow.pdf().DrawImage(*context.layout.logo(),
                                {box.left_pt + kLogoEdge_pt, box.bottom_pt + kLogoEdge_pt,
                                 box.width_pt - 2 * kLogoEdge_pt, box.height_pt - 2 * kLogoEdge_pt});
@@ -177,13 +179,14 @@ Status DrawTableBlock(const ReportContext& context, const Json& block) {
   return {};
 }
 
-// What a chart shows, for who cannot see it: its name and what the caption says of it.
-std::string ChartWords(const ReportContext& context, const std::string& name,
+// What a chart shows, for who cannot see it: what the caption says of it and its neighbours.
+std::string ChartWords(const ReportContext& context, const Json& names, std::size_t i,
                        const std::string& caption) {
-  std::string words = name;
-  std::replace(words.begin(), words.end(), '-', ' ');
-  return context.layout.Say("Chart") + ": " + context.layout.Say(words) +
-         (caption.empty() ? "" : ". " + caption);
+  const Json which =
+      Phrase("Chart {{number}} of {{count}}",
+             {{"number", std::to_string(i + 1)}, {"count", std::to_string(names.size())}});
+  return context.layout.Say(which) + ": " +
+         (caption.empty() ? names[i].get<std::string>() : caption);
 }
 
 Status DrawChartBlock(const ReportContext& context, const Json& block) {
@@ -195,12 +198,11 @@ Status DrawChartBlock(const ReportContext& context, const Json& block) {
   const double gap_pt = 10, count = static_cast<double>(names.size());
   const double width_pt = (flow.width_pt() - gap_pt * (count - 1)) / count;
   double left_pt = flow.left_pt();
-  for (const Json& name : names) {
+  for (std::size_t i = 0; i < names.size(); ++i) {
     const PageBox box{left_pt, flow.y_pt() - height_pt, width_pt, height_pt};
-    const ScopedTag figure(
-        flow.pdf(),
-        PdfTag{"Figure", ChartWords(context, name.get<std::string>(), caption), "", box});
-    TELESTRAIN_RETURN_IF_ERROR(DrawChart(context, name.get<std::string>(), box));
+    const ScopedTag figure(flow.pdf(),
+                           PdfTag{"Figure", ChartWords(context, names, i, caption), "", box});
+    TELESTRAIN_RETURN_IF_ERROR(DrawChart(context, names[i].get<std::string>(), box));
     left_pt += width_pt + gap_pt;
   }
   flow.Advance(height_pt);
