@@ -25,9 +25,12 @@ class ReportArchive : public ::testing::Test {
     ASSERT_TRUE(MakeResults(folder_));
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }
-  std::string Make(ArchiveLevel level = ArchiveLevel::k3a) {
+  std::string Make(ArchiveLevel level = ArchiveLevel::k3a, const std::string& layout = "acceptance",
+                   const std::string& language = "en") {
     ReportOptions options;
     options.level = level;
+    options.name = layout;
+    options.language = language;
     const Status written = WriteReport(folder_, options);
     EXPECT_TRUE(written) << written.error().message;
     return FileBytes(Pdf());
@@ -44,7 +47,15 @@ std::string Joined(const std::vector<std::string>& lines) {
   return all;
 }
 
-TEST_F(ReportArchive, TagsAreComplete) { EXPECT_EQ(Joined(StructureFaults(Make())), ""); }
+TEST_F(ReportArchive, TagsAreCompleteInEveryLayoutAndLanguage) {
+  for (const char* layout : {"acceptance", "calibration", "strain"})
+    for (const char* language : {"en", "de", "zh"}) {
+      const std::string bytes = Make(ArchiveLevel::k3a, layout, language);
+      EXPECT_EQ(Joined(StructureFaults(bytes)), "") << layout << " " << language;
+      EXPECT_NE(bytes.find("/Lang (" + std::string(language) + ")"), std::string::npos);
+      EXPECT_NE(bytes.find("/S /Link\n"), std::string::npos) << "from the summary to its evidence";
+    }
+}
 
 TEST_F(ReportArchive, TagsAreCompleteWithHardlyAnything) {
   fixture_.ruler = fixture_.strain = fixture_.calibration = fixture_.detection = nullptr;
