@@ -1,6 +1,7 @@
 #include "report/report_attachments.h"
 
 #include "base/files.h"
+#include "report/audit/audit_trail.h"
 
 namespace telestrain {
 namespace {
@@ -42,6 +43,8 @@ Result<std::vector<PdfAttachment>> ReportAttachments(const std::filesystem::path
     std::error_code code;
     if (!std::filesystem::exists(results / attachment.name, code)) continue;
     TELESTRAIN_ASSIGN_OR_RETURN(attachment.bytes, ReadFile(results / attachment.name));
+    // What was done later, such as writing this very report, is not of these results.
+    if (attachment.name == kTrail) attachment.bytes = TrailOfResults(attachment.bytes);
     attachments.push_back(std::move(attachment));
   }
   return attachments;

@@ -40,6 +40,7 @@ std::unique_ptr<Command> MakeExportCommand();
 std::unique_ptr<Command> MakeSignCommand();
 std::unique_ptr<Command> MakeStudyCommand();
 std::unique_ptr<Command> MakeRunCommand();
+std::unique_ptr<Command> MakeAuditCommand();
 
 // The two folders that most verbs take.
 struct SessionArguments {

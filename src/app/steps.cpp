@@ -1,20 +1,25 @@
 #include "app/steps.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "app/results_folder.h"
+#include "app/step_record.h"
 #include "base/files.h"
 #include "base/json_file.h"
 #include "base/numbers.h"
 #include "calibration/calibration_file.h"
 #include "measurement/ruler_acceptance.h"
-#include "report/acceptance_report.h"
+#include "report/template_list.h"
 #include "target/corner_import.h"
+#include "viz/picture_set.h"
 
 namespace telestrain {
 namespace {
 
 namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
 
 // One line for every limit that is not met or could not be decided.
 Status SayWhy(const fs::path& results, Console& console) {
@@ -25,8 +30,9 @@ Status SayWhy(const fs::path& results, Console& console) {
     for (const auto& quantity : json.at("quantities")) {
       const auto text = [&](const char* key) {
         const auto at = quantity.find(key);
-        return at != quantity.end() && at->is_string() ? at->template get<std::string>()
-                                                       : std::string("-");
+        if (at == quantity.end()) return std::string("-");
+        const auto& entry = at->is_object() ? at->at("printed") : *at;  // a Phrase
+        return entry.is_string() ? entry.template get<std::string>() : std::string("-");
       };
       if (quantity.at("limit").is_null() || text("verdict") == "pass") continue;
       console.Say("  " + text("label") + ": " + text("printed") + " " + text("unit") + " (U " +
@@ -37,6 +43,77 @@ Status SayWhy(const fs::path& results, Console& console) {
     return BadInput((results / "results.json").string() + ": " + e.what());
   }
   return {};
+}
+
+// What the layout says of the report's content, with the earlier results that it needs.
+Result<ReportScope> ScopeOf(const ReportOptions& options, const fs::path& against) {
+  TELESTRAIN_ASSIGN_OR_RETURN(LayoutScope layout, ScopeOfLayout(options));
+  if (layout.against_earlier && against.empty())
+    return Error{ErrorKind::kUsage,
+                 "the report '" + options.name +
+                     "' compares with an earlier one; name its results folder or its report.pdf "
+                     "with --against EARLIER"};
+  if (!layout.against_earlier && !against.empty())
+    return Error{ErrorKind::kUsage, "--against: the report '" + options.name +
+                                        "' shows no comparison; use --template reverification"};
+  layout.scope.earlier = against;
+  return layout.scope;
+}
+
+std::vector<fs::path> IfGiven(const fs::path& path) {
+  return path.empty() ? std::vector<fs::path>{} : std::vector{path};
+}
+
+// Leaves the session's description and its place in the results folder, and records what was read.
+Status RecordOpening(const fs::path& folder, const fs::path& results, const fs::path& corners) {
+  TELESTRAIN_ASSIGN_OR_RETURN(const std::string description, ReadFile(folder / "session.toml"));
+  TELESTRAIN_RETURN_IF_ERROR(WriteFileAtomically(results / "session.toml", description));
+  std::error_code code;
+  const std::string place = fs::absolute(folder, code).lexically_normal().string();
+  TELESTRAIN_RETURN_IF_ERROR(WriteFileAtomically(results / "session.path", place + "\n"));
+  TELESTRAIN_ASSIGN_OR_RETURN(std::vector<std::string> files, SessionFiles(results));
+  return RecordStep(results, {"open",
+                              {{"corners", corners.string()}},
+                              std::move(files),
+                              {},
+                              IfGiven(corners),
+                              {"inputs.json", "session.toml"}});
+}
+
+StepRecord VerifyRecord() {
+  return {"verify",
+          Json::object(),
+          {"session.toml", "ruler.csv"},
+          {"detection.json", "calibration.json"},
+          {},
+          {"ruler.csv", "ruler.json"}};
+}
+
+// Recorded before the report is written, which carries the trail up to here.
+StepRecord ResultsRecord(const Json& options, const fs::path& against) {
+  std::error_code code;
+  const fs::path earlier = fs::is_directory(against, code) ? against / "results.json" : against;
+  return {"results",
+          options,
+          {},
+          {"inputs.json", "detection.json", "calibration.json", "residuals.csv", "mrcal.json",
+           "comparison.json", "ruler.json", "strain.json"},
+          {},
+          {"results.json", "dcc.xml"}};
+}
+
+// Every picture beside the report may stand in it.
+StepRecord ReportRecord(const fs::path& results, const Json& options) {
+  StepRecord record{"report", options,
+                    {},       {"results.json", "calibration.json", "residuals.csv", "dcc.xml"},
+                    {},       {"report.pdf"}};
+  std::error_code code;
+  for (fs::directory_iterator entry(results / "pictures", code), end; !code && entry != end;
+       entry.increment(code))
+    if (viz::IsStandardPicture(entry->path().filename().string()))
+      record.inputs.push_back("pictures/" + entry->path().filename().string());
+  std::sort(record.inputs.begin(), record.inputs.end());
+  return record;
 }
 
 }  // namespace
@@ -68,9 +145,11 @@ Result<Session> OpenSession(const fs::path& folder, const fs::path& results,
                  "it elsewhere, or leave --corners out to use it as it is"};
   // Bad input must be known before anything in the results folder is touched.
   TELESTRAIN_ASSIGN_OR_RETURN(const std::string inputs, InputsText(session, corners));
+  TELESTRAIN_RETURN_IF_ERROR(CheckTrail(results));
   TELESTRAIN_RETURN_IF_ERROR(EnsureFolder(results));
   TELESTRAIN_RETURN_IF_ERROR(RemoveOutputsFrom(results, Step::kDetect));
   TELESTRAIN_RETURN_IF_ERROR(WriteFileAtomically(results / "inputs.json", inputs));
+  TELESTRAIN_RETURN_IF_ERROR(RecordOpening(folder, results, corners));
   return session;
 }
 
@@ -78,6 +157,7 @@ Result<Session> ReopenSession(const fs::path& folder, const fs::path& results) {
   TELESTRAIN_ASSIGN_OR_RETURN(const bool corners_are_given, CornersWereGiven(results));
   TELESTRAIN_ASSIGN_OR_RETURN(Session session, ReadSession(folder, corners_are_given));
   TELESTRAIN_RETURN_IF_ERROR(RequireSameInputs(session, results));
+  TELESTRAIN_RETURN_IF_ERROR(CheckTrail(results));
   return session;
 }
 
@@ -97,7 +177,12 @@ Status DetectStep(const Session& session, const fs::path& results, const fs::pat
   for (const BoardObservation& board : detection.boards)
     if (!board.rejected_because.empty())
       console.Note("  not used: " + board.image + " " + board.view + ": " + board.rejected_because);
-  return {};
+  return RecordStep(results, {"detect",
+                              {{"corners", corners.string()}},
+                              TargetFiles(session),
+                              {"inputs.json"},
+                              IfGiven(corners),
+                              {"corners.vnl", "corner_covariances.csv", "detection.json"}});
 }
 
 Status VerifyStep(const Session& session, const fs::path& results, Console& console) {
@@ -107,7 +192,7 @@ Status VerifyStep(const Session& session, const fs::path& results, Console& cons
   TELESTRAIN_RETURN_IF_ERROR(RemoveOutputsFrom(results, Step::kVerify));
   if (session.ruler_images.empty()) {
     console.Say("verify     the session has no ruler images");
-    return {};
+    return RecordStep(results, VerifyRecord());
   }
   const std::vector<RulerLength> lengths = MeasureRuler(session, array, crosses);
   TELESTRAIN_ASSIGN_OR_RETURN(const auto made_from,
@@ -129,22 +214,37 @@ Status VerifyStep(const Session& session, const fs::path& results, Console& cons
   for (const RulerLength& length : lengths)
     if (!length.rejected_because.empty())
       console.Note("  not used: " + length.image + ": " + length.rejected_because);
-  return {};
+  return RecordStep(results, VerifyRecord());
 }
 
-Result<int> ReportStep(const fs::path& results, const fs::path& templates, Console& console) {
+Result<int> ReportStep(const fs::path& results, const ReportChoices& choices, Console& console) {
   TELESTRAIN_RETURN_IF_ERROR(RequireConsistent(results, Step::kReport));
   std::error_code code;
   if (!fs::exists(results / "calibration.json", code))
     return BadInput((results / "calibration.json").string() +
                     ": does not exist; run 'telestrain calibrate' first");
+  std::set<std::string> untranslated;
+  const ReportOptions options{choices.templates, choices.layout, choices.language, choices.level,
+                              [&](const std::string& text) { untranslated.insert(text); }};
+  // A wrong layout must be known before an older report goes.
+  TELESTRAIN_ASSIGN_OR_RETURN(const ReportScope scope, ScopeOf(options, choices.against));
   TELESTRAIN_RETURN_IF_ERROR(RemoveOutputsFrom(results, Step::kReport));
-  TELESTRAIN_ASSIGN_OR_RETURN(const Outcome outcome, MakeResults(results));
-  TELESTRAIN_RETURN_IF_ERROR(
-      WriteReport(results, {templates, "acceptance", "en", ArchiveLevel::k3a}));
+  TELESTRAIN_ASSIGN_OR_RETURN(const Outcome outcome, MakeResults(results, scope));
+  Json recorded{{"template", choices.layout},
+                {"templates", choices.templates.string()},
+                {"against", choices.against.string()}};
+  TELESTRAIN_RETURN_IF_ERROR(RecordStep(results, ResultsRecord(recorded, choices.against)));
+  TELESTRAIN_RETURN_IF_ERROR(WriteReport(results, options));
+  recorded["language"] = choices.language;
+  recorded["archive-level"] = choices.level == ArchiveLevel::k1b ? "1b" : "3a";
+  TELESTRAIN_RETURN_IF_ERROR(RecordStep(results, ReportRecord(results, recorded)));
   console.Say("report     " +
               fs::absolute(results / "report.pdf", code).lexically_normal().string());
   console.Say("verdict    " + outcome.verdict);
+  if (!untranslated.empty())
+    console.Note("  printed in English for want of a translation: " +
+                 CountText(untranslated.size(), "text") + ", the first is '" +
+                 *untranslated.begin() + "'");
   TELESTRAIN_RETURN_IF_ERROR(SayWhy(results, console));
   return outcome.accepted ? 0 : 1;
 }

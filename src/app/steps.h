@@ -9,6 +9,7 @@
 #include "base/console.h"
 #include "base/result.h"
 #include "calibration/calibrate.h"
+#include "report/acceptance_report.h"
 #include "session/session.h"
 #include "viz/render.h"
 
@@ -18,7 +19,10 @@ namespace telestrain {
 // in the results folder, writes its own files there and says what it found. Before it writes, it
 // removes its own and all later steps' files, so that a results folder never mixes two runs.
 
-// Reads the session, prepares the results folder and writes inputs.json with every file's hash.
+// Every step that writes results adds its entry to the folder's audit.jsonl, at its end.
+
+// Reads the session, prepares the results folder and writes inputs.json with every file's hash,
+// session.toml as it was read, and session.path: where the session lies.
 // With `corners` (a corners.vnl) the calibration images need not be there.
 Result<Session> OpenSession(const std::filesystem::path& folder,
                             const std::filesystem::path& results,
@@ -43,6 +47,7 @@ struct EarlierCalibration {
 
 // How `calibrate` works beside its defaults.
 struct CalibrateChoices {
+  CalibrateArguments arguments;  // as they were given
   CalibrationOptions options;
   // An earlier calibration; writes comparison.json. Read before the results folder is opened,
   // where it may lie.
@@ -59,6 +64,7 @@ Status VerifyStep(const Session& session, const std::filesystem::path& results, 
 
 // How `measure` works beside its defaults.
 struct MeasureChoices {
+  MeasureArguments arguments;      // as they were given
   int subset_px = 0, step_px = 0;  // 0: as DefaultPipeOptions
   std::optional<WatchChoices> watch;
 };
@@ -73,9 +79,16 @@ Status RenderStep(const std::filesystem::path& results, Console& console);
 // file and nothing else goes but a report that shows it.
 Status RenderStep(const std::filesystem::path& results, const RenderOptions& options,
                   const std::filesystem::path& out, Console& console);
-// Writes results.json and report.pdf, with the layout in `templates` when that is not empty. The
-// value is the exit code of the verdict.
-Result<int> ReportStep(const std::filesystem::path& results, const std::filesystem::path& templates,
+// How `report` works beside its defaults.
+struct ReportChoices {
+  std::filesystem::path templates;  // the user's own; empty: built-in ones only
+  std::string layout = "acceptance", language = "en";
+  std::filesystem::path against;  // an earlier results folder or report.pdf; empty: none
+  ArchiveLevel level = ArchiveLevel::k3a;
+};
+// Writes results.json and report.pdf. The value is the exit code of the verdict. Fails with kUsage
+// (no such layout or language; a layout that compares without `against`, or the other way round).
+Result<int> ReportStep(const std::filesystem::path& results, const ReportChoices& choices,
                        Console& console);
 
 }  // namespace telestrain
