@@ -30,6 +30,11 @@ Json SignificantCell(std::optional<double> value, int digits) {
   return {{"value", *value}, {"printed", PrintSignificant(*value, digits)}};
 }
 
+Json UncertaintyCell(std::optional<double> uncertainty) {
+  if (!uncertainty) return FixedCell({}, 0);
+  return {{"value", *uncertainty}, {"printed", PrintUncertainty(*uncertainty)}};
+}
+
 Json ExactCell(std::optional<double> value) {
   if (!value) return FixedCell({}, 0);
   return {{"value", *value}, {"printed", FormatShortest(*value)}};
@@ -71,6 +76,12 @@ void ResultTable::AddRow(std::vector<Json> cells) {
   json_["rows"].push_back(std::move(cells));
 }
 
+void ResultTable::LinkLastRow(const std::string& section) {
+  Json& links = json_["row_links"];
+  while (links.size() < json_["rows"].size()) links.push_back(nullptr);
+  links.back() = section;
+}
+
 void ResultTable::AddFact(Json name, Json value, const std::string& unit) {
   AddRow({std::move(name), std::move(value), unit});
 }
@@ -89,6 +100,21 @@ std::optional<Verdict> Acceptance::DecideQuantity(const Quantity& quantity) cons
   if (quantity.has_uncertainty && !quantity.expanded_uncertainty) return {};
   const double uncertainty = quantity.expanded_uncertainty.value_or(0);
   return Decide(*quantity.value, uncertainty, *quantity.limit, rule);
+}
+
+void ResultsDraft::AddPlain(const PlainResult& result, std::optional<double> value,
+                            std::optional<double> expanded_uncertainty) {
+  if (!value) return;
+  Quantity quantity;
+  quantity.id = result.id;
+  quantity.section = result.section;
+  quantity.label = result.label;
+  quantity.unit = result.unit;
+  quantity.value = value;
+  quantity.expanded_uncertainty = expanded_uncertainty;
+  quantity.decimals = result.decimals;
+  quantity.in_summary = false;
+  AddQuantity(std::move(quantity));
 }
 
 void ResultsDraft::AddQuantity(Quantity quantity) {

@@ -35,6 +35,8 @@ inline constexpr const char* kNoValue = "–";
 Json FixedCell(std::optional<double> value, int decimals);
 // A number with `digits` significant digits, or kNoValue.
 Json SignificantCell(std::optional<double> value, int digits);
+// An uncertainty without its value beside it, rounded after the GUM, or kNoValue.
+Json UncertaintyCell(std::optional<double> uncertainty);
 // A given, not measured number: all its digits, or kNoValue.
 Json ExactCell(std::optional<double> value);
 // A whole number, or kNoValue.
@@ -62,6 +64,9 @@ class ResultTable {
  public:
   ResultTable(std::string id, std::string title, std::vector<ResultColumn> columns);
   void AddRow(std::vector<Json> cells);  // as many as there are columns
+  // The last row leads to this section of the report: "row_links" has one entry per row, null where
+  // none is set.
+  void LinkLastRow(const std::string& section);
   // For tables of the form name, value, unit.
   void AddFact(Json name, Json value, const std::string& unit = "");
   bool empty() const { return json_["rows"].empty(); }
@@ -90,8 +95,19 @@ struct Quantity {
   std::optional<Verdict> verdict;
   // A check of our own: it can fail the report, but to pass it accepts nothing.
   bool is_check = false;
-  int decimals = 3;        // when there is no uncertainty
-  bool in_summary = true;  // a row of the report's first table
+  int decimals = 3;             // when there is no uncertainty
+  bool in_summary = true;       // a row of the report's first table
+  bool is_drawing_aid = false;  // of a chart, no result
+};
+
+// A result without a limit that has its own place in the report, and is in the list of quantities
+// for those who compare reports.
+struct PlainResult {
+  const char* id;
+  const char* section;
+  const char* label;
+  const char* unit;
+  int decimals;  // when there is no uncertainty
 };
 
 // What the session wants decided, and how.
@@ -118,6 +134,9 @@ struct ResultsDraft {
   Json sentences = Json::object();  // of the other sections
 
   void AddTable(ResultTable table) { tables.push_back(table.TakeJson()); }
+  // Adds it when it has a value.
+  void AddPlain(const PlainResult& result, std::optional<double> value,
+                std::optional<double> expanded_uncertainty);
   // Decides the quantity by its limit if it has no verdict yet.
   void AddQuantity(Quantity quantity);
 };

@@ -30,9 +30,10 @@ constexpr Measurand kStrain{"strain-budget",
                             "/budget",
                             "/standard_uncertainty_microstrain",
                             "µε"};
-constexpr Measurand kDiameter{"diameter-budget", "Uncertainty budget of the outer diameter",
-                              "Outer diameter",  "/geometry/budget",
-                              "/standard_uncertainty_um", "µm"};
+constexpr Measurand kDiameter{
+    "diameter-budget",          "Uncertainty budget of the outer diameter",
+    "Outer diameter",           "/geometry/budget",
+    "/standard_uncertainty_um", "µm"};
 
 // How the sources of the measurement model are evaluated (JCGM 100, 4.2 and 4.3): A by the scatter
 // of observations, B by certificates and bounds.
@@ -69,8 +70,8 @@ std::vector<BudgetRow> RowsOf(const Json& lines, const char* key, const Acceptan
     rows.push_back({source, UncertaintyCell(u), FixedCell(share, 1), TypeOf(source)});
   }
   const double combined = std::sqrt(variance);
-  rows.push_back({"Combined standard uncertainty", UncertaintyCell(combined), FixedCell(100, 1),
-                  kNoValue});
+  rows.push_back(
+      {"Combined standard uncertainty", UncertaintyCell(combined), FixedCell(100, 1), kNoValue});
   rows.push_back({Phrase("Expanded uncertainty U (k = {{k}})",
                          {{"k", FormatShortest(acceptance.coverage_factor)}}),
                   UncertaintyCell(acceptance.Expanded(combined)), FixedCell({}, 0), kNoValue});
@@ -79,16 +80,14 @@ std::vector<BudgetRow> RowsOf(const Json& lines, const char* key, const Acceptan
 
 void AddMeasurand(const Measurand& measurand, const Json& results, const Acceptance& acceptance,
                   ResultTable& all, ResultsDraft& draft) {
-  ResultTable table(measurand.table, measurand.title,
-                    {{"Component", ""},
-                     {"Standard uncertainty", measurand.unit},
-                     {"Share", "%"},
-                     {"Type", ""}});
+  ResultTable table(
+      measurand.table, measurand.title,
+      {{"Component", ""}, {"Standard uncertainty", measurand.unit}, {"Share", "%"}, {"Type", ""}});
   for (const BudgetRow& row :
        RowsOf(ListAt(results, measurand.budget), measurand.key, acceptance)) {
     table.AddRow({row.component, row.uncertainty, row.share, row.type});
-    all.AddRow({measurand.name, row.component, row.uncertainty, measurand.unit, row.share,
-                row.type});
+    all.AddRow(
+        {measurand.name, row.component, row.uncertainty, measurand.unit, row.share, row.type});
   }
   if (!table.empty()) draft.AddTable(std::move(table));
 }

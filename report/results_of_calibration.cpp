@@ -29,6 +29,7 @@ void AddResidualArrow(double rms_px, ResultsDraft& draft) {
   arrow.value = power * (digit < 1.5 ? 1 : digit < 3.5 ? 2 : digit < 7.5 ? 5 : 10);
   arrow.decimals = std::max(0, static_cast<int>(-std::floor(std::log10(*arrow.value) + 1e-9)));
   arrow.in_summary = false;
+  arrow.is_drawing_aid = true;
   draft.AddQuantity(arrow);
 }
 

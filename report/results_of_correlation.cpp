@@ -81,7 +81,8 @@ void AddFields(const Json& calibration, ResultTable& table) {
   const auto scale = NumberAt(calibration, "/lens/magnification_px_per_mm");
   std::vector<std::pair<std::string, std::string>> sizes;  // printed size, views
   for (const Json& view : ListAt(calibration, "/views")) {
-    const auto width_px = NumberAt(view, "/region_px/2"), height_px = NumberAt(view, "/region_px/3");
+    const auto width_px = NumberAt(view, "/region_px/2"),
+               height_px = NumberAt(view, "/region_px/3");
     if (!scale || !width_px || !height_px) continue;
     const std::string size =
         FormatFixed(*width_px / *scale, 2) + " × " + FormatFixed(*height_px / *scale, 2);
@@ -126,10 +127,10 @@ void AddFloorFact(const Json& strain, ResultTable& table) {
 // The reporting table of the iDICs good practices guide. What nobody measured says so.
 void AddReportingTable(const Json& inputs, const Json& calibration, const Json& strain,
                        ResultsDraft& draft) {
-  ResultTable table = FactTable("idics", "Correlation, reported after the iDICs good practices guide");
+  ResultTable table =
+      FactTable("idics", "Correlation, reported after the iDICs good practices guide");
   AddCamera(inputs, calibration, draft.acceptance, table);
-  table.AddFact("Pattern, how it was made",
-                TextAt(inputs, "/document/pattern", kNotStated));
+  table.AddFact("Pattern, how it was made", TextAt(inputs, "/document/pattern", kNotStated));
   table.AddFact("Pattern, size of a feature", kNotMeasured, "px");
   AddSettings(strain, table);
   table.AddFact("Strain", TextAt(strain, "/definitions/strain", kNotStated));
@@ -142,9 +143,9 @@ void AddReportingTable(const Json& inputs, const Json& calibration, const Json& 
 
 // One row of states without strain; null: there were none.
 void AddFloor(const Json& floor, const char* name, ResultTable& table) {
-  const ResultCellPair mean = ResultCells(NumberAt(floor, "/mean_microstrain/value"),
-                                          NumberAt(floor, "/mean_microstrain/expanded_uncertainty"),
-                                          2);
+  const ResultCellPair mean =
+      ResultCells(NumberAt(floor, "/mean_microstrain/value"),
+                  NumberAt(floor, "/mean_microstrain/expanded_uncertainty"), 2);
   const auto alone = [&](const char* pointer) { return UncertaintyCell(NumberAt(floor, pointer)); };
   table.AddRow({name, floor.is_object() ? CountCell(NumberAt(floor, "/count")) : kNotMeasured,
                 mean.value, mean.uncertainty, alone("/sd_microstrain"),

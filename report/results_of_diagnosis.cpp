@@ -43,7 +43,7 @@ int DecimalsOf(double value) {
 Quantity QuantityOf(const Check& check, const Json& optimum, const Acceptance& acceptance) {
   Quantity quantity;
   quantity.id = check.id;
-  quantity.section = "calibration";
+  quantity.section = "diagnosis";
   quantity.label = check.label;
   quantity.unit = check.unit;
   quantity.limit_kind = "max";
@@ -111,7 +111,7 @@ void AddNotChecked(const Json& optimum, ResultsDraft& draft) {
       TextAt(optimum, "/missing_because", "mrcal.json gives neither a result nor a reason"));
   Quantity quantity;
   quantity.id = kChecks.front().id;
-  quantity.section = "calibration";
+  quantity.section = "diagnosis";
   quantity.label = Phrase("{{quantity}} (not checked: {{reason}})",
                           {{"quantity", kChecks.front().label}, {"reason", reason}});
   quantity.unit = kChecks.front().unit;

@@ -11,7 +11,7 @@ namespace {
 // of the session's [document] that say it, the preferred one first.
 struct ItemEntry {
   const char* label;
-  std::array<const char*, 3> keys;
+  std::array<const char*, 4> keys;
   bool wanted;  // by a complete certificate; the others only where they apply
 };
 
@@ -23,28 +23,33 @@ constexpr std::array kEntries{
     ItemEntry{"Customer", {"customer"}, true},
     ItemEntry{"Address of the customer", {"customer_address"}, false},
     ItemEntry{"Item", {"item"}, true},
-    ItemEntry{"Serial numbers", {"serial_numbers", "serials", "serial_number"}, true},
-    ItemEntry{"Condition of the item", {"condition"}, true},
+    ItemEntry{"Serial numbers", {"serial_numbers", "item_serial", "serial_number", "serial"}, true},
+    ItemEntry{"Condition of the item", {"condition", "item_condition"}, true},
     ItemEntry{"Instrument", {"instrument"}, false},
+    ItemEntry{"Serial number of the instrument", {"instrument_serial"}, false},
     ItemEntry{"Method", {"method", "procedure"}, true},
     ItemEntry{"Deviations from the method", {"deviations"}, false},
     ItemEntry{"Sampling", {"sampling"}, false},
-    ItemEntry{"Place of the test", {"place"}, true},
-    ItemEntry{"Date of receipt", {"received", "date_received"}, false},
-    ItemEntry{"Date of the test", {"test_date", "date_of_test"}, true},
-    ItemEntry{"Date of issue", {"issue_date", "date_of_issue", "date"}, true},
+    ItemEntry{"Place of the test", {"place", "performance_location"}, true},
+    ItemEntry{"Date of receipt", {"received", "receipt_date", "date_received"}, false},
+    ItemEntry{"Date of the test", {"measured", "measured_from", "test_date", "begin_date"}, true},
+    ItemEntry{"End of the test", {"measured_to", "end_date"}, false},
+    ItemEntry{"Date of issue", {"issued", "issue_date", "date"}, true},
     ItemEntry{"Environmental conditions", {"environment"}, true},
     ItemEntry{"Operator", {"operator"}, true},
     ItemEntry{"Traceability", {"traceability"}, false},
+    ItemEntry{"Serial number of the target", {"target_serial"}, false},
     ItemEntry{"Certificate of the target", {"target_certificate", "traceability"}, true},
+    ItemEntry{"Serial number of the ruler", {"ruler_serial"}, false},
     ItemEntry{"Certificate of the ruler", {"ruler_certificate", "traceability"}, true},
     ItemEntry{"Certificate of the gauges", {"gauge_certificate"}, false},
-    ItemEntry{"Authorised by", {"authorised_by", "authoriser", "approver"}, true}};
+    ItemEntry{"Authorised by", {"authorised_by", "authorized_by", "authoriser", "approver"}, true}};
 
 // The first key that is given; nullptr: none.
 const char* GivenKey(const ItemEntry& entry, const Json& document) {
   for (const char* key : entry.keys)
-    if (key != nullptr && document.contains(key) && !TextAt(document, std::string("/") + key).empty())
+    if (key != nullptr && document.contains(key) &&
+        !TextAt(document, std::string("/") + key).empty())
       return key;
   return nullptr;
 }
@@ -86,6 +91,20 @@ Json UncertaintySentence(const Acceptance& acceptance) {
 }
 
 }  // namespace
+
+Json RuleSentence(const Acceptance& acceptance) {
+  const std::map<std::string, Json> values{{"k", FormatShortest(acceptance.coverage_factor)}};
+  if (acceptance.rule == DecisionRule::kSimple)
+    return Phrase(
+        "Decision rule: simple acceptance; pass if |result| ≤ limit, fail otherwise. The expanded "
+        "uncertainty U (k = {{k}}) is stated and not used for the decision.",
+        values);
+  return Phrase(
+      "Decision rule: guarded after ISO 14253-1; pass if |result| + U ≤ limit, fail if "
+      "|result| - U > limit, in doubt between. U is the expanded uncertainty, k = {{k}}; a result "
+      "that has no U by its nature is compared directly, one whose U is missing is not decided.",
+      values);
+}
 
 void AddItem(const Json& inputs, ResultsDraft& draft) {
   static const Json kNothing = Json::object();

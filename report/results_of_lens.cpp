@@ -67,6 +67,8 @@ void AddLens(const Json& calibration, ResultsDraft& draft) {
   if (const auto magnification = NumberAt(calibration, "/lens/magnification_px_per_mm")) {
     const auto expanded =
         draft.acceptance.Expanded(NumberAt(calibration, "/lens/sigma_magnification_px_per_mm"));
+    draft.AddPlain({"magnification", "calibration", "Magnification", "px/mm", 4}, magnification,
+                   expanded);
     table.AddFact("Magnification (U with the certificate of the pitch)",
                   UncertainCell(*magnification, expanded, FixedCell(magnification, 4)), "px/mm");
   }

@@ -40,6 +40,11 @@ void AddFacts(const Json& acceptance, ResultsDraft& draft) {
           UncertainCell(*value, NumberAt(estimate, "/expanded_uncertainty"), FixedCell(value, 3)),
           "µm");
   };
+  const auto number = [&](const char* pointer) { return NumberAt(acceptance, pointer); };
+  draft.AddPlain({"ruler_bias", "ruler", "Bias of the length error", "µm", 3},
+                 number("/bias_um/value"), number("/bias_um/expanded_uncertainty"));
+  draft.AddPlain({"ruler_spread", "ruler", "Spread of the length error", "µm", 3},
+                 number("/spread_um/value"), number("/spread_um/expanded_uncertainty"));
   add("Bias: mean of E, U with the certificates", "/bias_um");
   add("Spread: standard deviation of E", "/spread_um");
   table.AddFact("Spread that the image noise explains",

@@ -33,6 +33,12 @@ void AddFloor(const Json& floor, const std::string& what, ResultTable& table) {
 void AddFacts(const Json& sequence, ResultsDraft& draft) {
   ResultTable table = FactTable("sequence", "Sequence: regression, drift, noise floors");
   const Json& regression = EntryAt(sequence, "/regression");
+  const auto number = [&](const char* pointer) { return NumberAt(regression, pointer); };
+  draft.AddPlain({"strain_slope", "strain", "Slope, camera over gauges", "", 4},
+                 number("/slope/value"), number("/slope/expanded_uncertainty"));
+  draft.AddPlain({"strain_bias", "strain", "Bias: mean of camera - gauges", "µε", 2},
+                 number("/bias_microstrain/value"),
+                 number("/bias_microstrain/expanded_uncertainty"));
   AddEstimate(EntryAt(regression, "/slope"), "Slope, camera over gauges", "", table);
   AddEstimate(EntryAt(regression, "/intercept_microstrain"), "Intercept", "µε", table);
   AddEstimate(EntryAt(regression, "/bias_microstrain"), "Bias: mean of camera - gauges", "µε",
