@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "report/text_wrap.h"
 
@@ -18,11 +19,32 @@ std::size_t LineCount(const std::vector<CellLines>& cells) {
   return count;
 }
 
+// Makes the lines of this page the link's area.
+void AddLinkOver(PageFlow& flow, const CellLines& cell, const RowFrame& frame, std::size_t lines) {
+  const double height_pt = static_cast<double>(lines) * frame.line_height_pt;
+  double width_pt = 0;
+  for (const std::string& line : cell.lines)
+    width_pt = std::max(width_pt, flow.pdf().TextWidth_pt(cell.style, line));
+  const double free_pt = std::max(0.0, cell.width_pt - width_pt);
+  const double share = cell.align == Align::kLeft ? 0 : cell.align == Align::kCenter ? 0.5 : 1;
+  flow.pdf().AddLink({cell.left_pt + share * free_pt, flow.y_pt() - frame.gap_pt / 2 - height_pt,
+                      cell.width_pt - free_pt, height_pt},
+                     cell.link);
+}
+
 void DrawLines(PageFlow& flow, const CellLines& cell, const RowFrame& frame, std::size_t from,
                std::size_t count) {
+  const std::size_t end = std::min(from + count, cell.lines.size());
+  if (from >= end) return;
+  std::optional<ScopedTag> piece, link;
+  if (cell.tag != 0) piece.emplace(flow.pdf(), cell.tag);
+  if (!cell.link.empty()) {
+    link.emplace(flow.pdf(), PdfTag{"Link", cell.leads});
+    AddLinkOver(flow, cell, frame, end - from);
+  }
   const double share = cell.align == Align::kLeft ? 0 : cell.align == Align::kCenter ? 0.5 : 1;
   double y_pt = flow.y_pt() - frame.gap_pt / 2;
-  for (std::size_t i = from; i < std::min(from + count, cell.lines.size()); ++i) {
+  for (std::size_t i = from; i < end; ++i) {
     flow.pdf().DrawText(cell.style,
                         {cell.left_pt + share * cell.width_pt, y_pt - kAscent * cell.style.size_pt},
                         cell.lines[i], cell.align);
@@ -46,7 +68,7 @@ std::size_t LinesThatFit(const PageFlow& flow, const RowFrame& frame, std::size_
 
 CellLines MakeCellLines(PdfDocument& pdf, const TextStyle& style, double left_pt, double width_pt,
                         const std::string& text, Align align) {
-  return {style, left_pt, width_pt, align, WrapText(pdf, style, text, width_pt)};
+  return {style, left_pt, width_pt, align, WrapText(pdf, style, text, width_pt), 0, {}, {}};
 }
 
 double RowHeight_pt(const std::vector<CellLines>& cells, const RowFrame& frame) {

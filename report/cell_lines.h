@@ -15,6 +15,9 @@ struct CellLines {
   double width_pt = 0;
   Align align = Align::kLeft;
   std::vector<std::string> lines;
+  int tag = 0;        // of PdfDocument::BeginTag: what the lines are a piece of; 0: the open tag
+  std::string link;   // the destination that the lines lead to, or empty
+  std::string leads;  // in words, for a reading aid
 };
 
 CellLines MakeCellLines(PdfDocument& pdf, const TextStyle& style, double left_pt, double width_pt,

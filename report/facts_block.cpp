@@ -6,6 +6,23 @@
 namespace telestrain {
 namespace {
 
+// The places of name and value in the tags: read fact by fact, in whatever columns they stand.
+struct FactTags {
+  int name = 0, value = 0;
+};
+
+std::vector<FactTags> TagFacts(PdfDocument& pdf, std::size_t count) {
+  std::vector<FactTags> tags;
+  for (std::size_t i = 0; i < count; ++i) {
+    const ScopedTag row(pdf, PdfTag{"TR"});
+    FactTags fact;
+    fact.name = ScopedTag(pdf, PdfTag{"TH", "", "Row"}).number();
+    fact.value = ScopedTag(pdf, PdfTag{"TD"}).number();
+    tags.push_back(fact);
+  }
+  return tags;
+}
+
 std::string FactText(const Json& row) {
   const std::string unit = TextAt(row, "/2");
   return CellText(row[1]) + (unit.empty() || unit == "°" ? "" : " ") + unit;
@@ -27,6 +44,8 @@ void DrawFacts(PageFlow& flow, const Json& table, int columns, double width_pt,
   RowFrame frame;
   frame.line_height_pt = value_style.LineHeight_pt();
   frame.start_new_page = [&] { flow.StartPage(); };
+  const ScopedTag facts(flow.pdf(), PdfTag{"Table"});
+  const std::vector<FactTags> tags = TagFacts(flow.pdf(), rows.size());
   const std::size_t lines = (rows.size() + columns - 1) / columns;
   for (std::size_t line = 0; line < lines; ++line) {
     std::vector<CellLines> cells;
@@ -35,6 +54,8 @@ void DrawFacts(PageFlow& flow, const Json& table, int columns, double width_pt,
       cells.push_back(MakeCellLines(flow.pdf(), name_style, x_pt, name_pt - 6, name_of(rows[i])));
       cells.push_back(MakeCellLines(flow.pdf(), value_style, x_pt + name_pt, column_pt - name_pt,
                                     FactText(rows[i])));
+      (cells.end() - 2)->tag = tags[i].name;
+      cells.back().tag = tags[i].value;
     }
     DrawRow(flow, cells, frame);
   }

@@ -39,7 +39,8 @@ void PageFlow::Require(double height_pt) {
   if (y_pt_ - height_pt < kBottom_pt) StartPageUnlessEmpty();
 }
 
-void PageFlow::Paragraph(const TextStyle& style, const std::string& text) {
+void PageFlow::Paragraph(const TextStyle& style, const std::string& text, const PdfTag& tag) {
+  const ScopedTag paragraph(pdf_, tag);
   for (const std::string& line : WrapText(pdf_, style, text, width_pt())) {
     Require(style.LineHeight_pt());
     pdf_.DrawText(style, {left_pt(), y_pt_ - kAscent * style.size_pt}, line);

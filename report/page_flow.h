@@ -51,8 +51,9 @@ class PageFlow {
   void MoveTo(double y_pt) { y_pt_ = y_pt; }
 
   // A wrapped paragraph over the whole width, broken over pages line by line.
-  void Paragraph(const TextStyle& style, const std::string& text);
-  // Wrapped lines with their first base line just below `top_pt`; returns their height.
+  void Paragraph(const TextStyle& style, const std::string& text, const PdfTag& tag = {"P"});
+  // Wrapped lines with their first base line just below `top_pt`, a part of the open tag; returns
+  // their height.
   double TextBlock(const TextStyle& style, PagePoint top_left, double width_pt,
                    const std::string& text, Align align = Align::kLeft);
   double TextHeight_pt(const TextStyle& style, double width_pt, const std::string& text);

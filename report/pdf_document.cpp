@@ -1,152 +1,107 @@
 #include "report/pdf_document.h"
 
-#include <hpdf_objects.h>
 #include <hpdf_pages.h>
 
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <map>
 
 #include "base/files.h"
-#include "report/pdf_font.h"
-#include "report/unicode_text.h"
+#include "report/pdf_annotations.h"
+#include "report/pdf_attachments.h"
+#include "report/pdf_image.h"
+#include "report/pdf_metadata.h"
+#include "report/pdf_structure.h"
+#include "report/pdf_text.h"
 
 namespace telestrain {
 namespace {
 
-constexpr const char* kFolder = "/usr/share/fonts/truetype/";
 constexpr double kDegree_rad = 0.017453292519943295;
+constexpr const char* kColorProfile = "/usr/share/color/icc/sRGB.icc";
 
-PdfFont Liberation(const std::string& file) {
-  const std::string folder = kFolder;
-  return FindFont({folder + "liberation2/" + file, folder + "liberation/" + file}, -1,
-                  "fonts-liberation2", true);
-}
-
-PdfFont DejaVu(const std::string& file) {
-  return FindFont({std::string(kFolder) + "dejavu/" + file}, -1, "fonts-dejavu-core", true);
-}
-
-enum FontIndex { kSans, kSansBold, kMono, kSymbols, kSymbolsBold, kChinese, kFontCount };
-
-std::array<PdfFont, kFontCount> FindFonts() {
-  return {Liberation("LiberationSans-Regular.ttf"),
-          Liberation("LiberationSans-Bold.ttf"),
-          Liberation("LiberationMono-Regular.ttf"),
-          DejaVu("DejaVuSans.ttf"),
-          DejaVu("DejaVuSans-Bold.ttf"),
-          FindFont({std::string(kFolder) + "wqy/wqy-zenhei.ttc"}, 0, "fonts-wqy-zenhei", false)};
-}
-
-const std::vector<FontIndex>& FallbackChain(Face face) {
-  static const std::vector<FontIndex> kRegularChain = {kSans, kSymbols, kChinese};
-  static const std::vector<FontIndex> kBoldChain = {kSansBold, kSymbolsBold, kSymbols, kChinese};
-  static const std::vector<FontIndex> kMonoChain = {kMono, kSans, kSymbols, kChinese};
-  if (face == Face::kBold) return kBoldChain;
-  return face == Face::kMono ? kMonoChain : kRegularChain;
-}
-
-// Code points to draw: control characters become spaces.
-std::vector<char32_t> DrawablePoints(const std::string& text) {
-  std::vector<char32_t> points = CodePoints(text);
-  for (char32_t& point : points)
-    if (point < 0x20 || (point >= 0x7F && point < 0xA0)) point = U' ';
-  return points;
-}
+// What stands in the trailer until the hash of the file is known: as many hexadecimal digits.
+constexpr std::size_t kIdBytes = 16;
 
 float F(double value) { return static_cast<float>(value); }
+
+// The first and the last identifier are the same: the file was never changed.
+void ReplaceId(std::string& file, const std::string& hash) {
+  const std::string digits(2 * kIdBytes, '0');
+  std::size_t at = file.rfind("/ID");
+  for (int half = 0; half < 2 && at != std::string::npos; ++half) {
+    at = file.find(digits, at);
+    if (at != std::string::npos) file.replace(at, digits.size(), hash, 0, digits.size());
+  }
+}
 
 }  // namespace
 
 struct PdfDocument::Internals {
-  struct Run {  // characters of one font
-    PdfFont* font;
-    std::string utf8;
-    double advance = 0;  // thousandths of the font size
-  };
+  Internals(HPDF_Doc new_document, ArchiveLevel archive_level)
+      : document(new_document),
+        level(archive_level),
+        objects(new_document),
+        structure(objects, archive_level == ArchiveLevel::k3a),
+        annotations(objects, structure),
+        images(objects) {}
+  ~Internals() { HPDF_Free(document); }
 
-  HPDF_Doc document = nullptr;
-  HPDF_Encoder utf8 = nullptr;
-  std::array<PdfFont, kFontCount> fonts = FindFonts();
+  HPDF_Doc document;
+  ArchiveLevel level;
+  PdfObjects objects;
+  PdfStructure structure;
+  PdfAnnotations annotations;
+  PdfImages images;
+  PdfFonts fonts;
+  std::vector<PdfAttachment> attachments;
+  std::string color_profile;
   std::vector<HPDF_Page> pages;
   HPDF_Page page = nullptr;
   HPDF_Outline chapter = nullptr;
   HPDF_STATUS error = HPDF_OK;
   HPDF_STATUS error_detail = 0;
 
-  ~Internals() {
-    if (document) HPDF_Free(document);
+  bool ok() const { return error == HPDF_OK && objects.ok(); }
+  // Whether something can be drawn; what is drawn next belongs to the open tag.
+  bool Ready() {
+    if (!ok() || !page) return false;
+    structure.Mark(page);
+    return ok();
   }
-  bool ok() const { return error == HPDF_OK; }
   // libharu's handler: keeps the first error; nothing is thrown through its C frames.
   static void Record(HPDF_STATUS error_code, HPDF_STATUS detail, void* self) {
     auto& internals = *static_cast<Internals*>(self);
-    if (!internals.ok()) return;
+    if (internals.error != HPDF_OK) return;
     internals.error = error_code;
     internals.error_detail = detail;
   }
-  void Require(bool done) {
-    if (!done && ok()) error = HPDF_FAILD_TO_ALLOC_MEM;
-  }
   Error ErrorOfLibharu() const {
+    const HPDF_STATUS code = error == HPDF_OK ? HPDF_FAILD_TO_ALLOC_MEM : error;
     char text[120];
-    std::snprintf(text, sizeof text, "the PDF library failed with error 0x%04lX, detail %lu", error,
+    std::snprintf(text, sizeof text, "the PDF library failed with error 0x%04lX, detail %lu", code,
                   error_detail);
     return OutputFailed(std::string(text) + "; free memory, or report it with the results folder");
   }
 
-  PdfFont* FontFor(Face face, char32_t point);
-  std::vector<Run> Runs(Face face, const std::string& text);
-  void AppendRun(std::vector<Run>& runs, PdfFont* font, char32_t point) const;
+  std::vector<PdfFonts::Run> Runs(Face face, const std::string& text) {
+    bool done = ok();
+    auto runs = fonts.Runs(document, face, text, done);
+    objects.Require(done);
+    return runs;
+  }
   void SetFill(Color color) {
     HPDF_Page_SetRGBFill(page, F(color.red), F(color.green), F(color.blue));
   }
   void SetStroke(const Stroke& stroke);
   void MovePath(const std::vector<PagePoint>& points);
-  void AddTrailerId(const std::string& seed);
-  void SetInfo(const PdfInfo& info);
+  void AddBox(const PageBox& box) {
+    HPDF_Page_Rectangle(page, F(box.left_pt), F(box.bottom_pt), F(box.width_pt), F(box.height_pt));
+  }
+  void AddEmptyId();
+  void WriteCatalog(const PdfInfo& info);
+  Result<std::string> Bytes();
 };
-
-// The first font of the chain that has the character; loads fonts on the way.
-PdfFont* PdfDocument::Internals::FontFor(Face face, char32_t point) {
-  for (const FontIndex index : FallbackChain(face)) {
-    PdfFont& font = fonts[index];
-    if (font.path.empty()) continue;
-    if (!font.loaded() && !LoadFont(document, font)) return nullptr;
-    if (point == U' ' || font.GlyphOf(point) != 0) return &font;
-  }
-  return nullptr;
-}
-
-void PdfDocument::Internals::AppendRun(std::vector<Run>& runs, PdfFont* font,
-                                       char32_t point) const {
-  if (runs.empty() || runs.back().font != font) runs.push_back({font, "", 0});
-  runs.back().utf8 += Utf8(point);
-  runs.back().advance += font->Advance(point);
-  font->used.insert(static_cast<HPDF_UINT16>(point));
-}
-
-std::vector<PdfDocument::Internals::Run> PdfDocument::Internals::Runs(Face face,
-                                                                      const std::string& text) {
-  std::vector<Run> runs;
-  for (const char32_t point : DrawablePoints(text)) {
-    if (!ok()) return {};
-    if (PdfFont* font = FontFor(face, point)) {
-      AppendRun(runs, font, point);
-      continue;
-    }
-    std::string name = CodePointName(point);
-    name.insert(name.begin(), '[');
-    name.push_back(']');
-    for (const char letter : name) {
-      PdfFont* font = FontFor(face, static_cast<char32_t>(letter));
-      Require(font != nullptr);
-      if (font) AppendRun(runs, font, static_cast<char32_t>(letter));
-    }
-  }
-  return runs;
-}
 
 void PdfDocument::Internals::SetStroke(const Stroke& stroke) {
   static const std::map<Dash, std::vector<HPDF_UINT16>> kPatterns = {{Dash::kSolid, {}},
@@ -173,49 +128,61 @@ void PdfDocument::Internals::MovePath(const std::vector<PagePoint>& points) {
 }
 
 // libharu writes no /ID without encryption, and with it one made of the time.
-void PdfDocument::Internals::AddTrailerId(const std::string& seed) {
-  const std::string hash = Sha256Hex(seed).substr(0, 16);
-  HPDF_Array id = HPDF_Array_New(document->mmgr);
-  for (int i = 0; i < 2; ++i) {
-    const auto* bytes = reinterpret_cast<const HPDF_BYTE*>(hash.data());
-    HPDF_Binary half = HPDF_Binary_New(document->mmgr, const_cast<HPDF_BYTE*>(bytes),
-                                       static_cast<HPDF_UINT>(hash.size()));
-    Require(HPDF_Array_Add(id, half) == HPDF_OK);
+void PdfDocument::Internals::AddEmptyId() {
+  HPDF_Array id = objects.MakeArray();
+  for (int i = 0; i < 2; ++i) objects.Append(id, objects.MakeBytes(std::string(kIdBytes, '\0')));
+  objects.Set(document->trailer, "ID", id);
+}
+
+void PdfDocument::Internals::WriteCatalog(const PdfInfo& info) {
+  images.Finish();
+  structure.CloseMark();
+  annotations.Write(document->catalog);
+  structure.Write(document->catalog);
+  WriteMetadata(objects, document, info, level);
+  WriteOutputIntent(objects, document, color_profile);
+  WriteAttachments(objects, document->catalog, std::move(attachments), info.created);
+  if (objects.ok()) objects.Require(fonts.Finish(objects, level == ArchiveLevel::k1b));
+  AddEmptyId();
+  // Set last: other calls of libharu set it to what they need at least.
+  document->pdf_version = level == ArchiveLevel::k1b ? HPDF_VER_14 : HPDF_VER_17;
+}
+
+Result<std::string> PdfDocument::Internals::Bytes() {
+  HPDF_SaveToStream(document);
+  if (!ok()) return ErrorOfLibharu();
+  HPDF_ResetStream(document);
+  std::string bytes;
+  std::vector<HPDF_BYTE> buffer(1 << 16);
+  for (;;) {
+    auto size = static_cast<HPDF_UINT32>(buffer.size());
+    const HPDF_STATUS status = HPDF_ReadFromStream(document, buffer.data(), &size);
+    bytes.append(reinterpret_cast<const char*>(buffer.data()), size);
+    if (status == HPDF_STREAM_EOF || size == 0) return bytes;
+    if (status != HPDF_OK) return ErrorOfLibharu();
   }
-  Require(HPDF_Dict_Add(document->trailer, "ID", id) == HPDF_OK);
 }
 
-void PdfDocument::Internals::SetInfo(const PdfInfo& info) {
-  const auto set = [this](HPDF_InfoType type, const std::string& text) {
-    if (!text.empty()) HPDF_SetInfoAttr(document, type, text.c_str());
-  };
-  // The UTF-8 encoder makes UTF-16 of the information texts.
-  document->cur_encoder = utf8;
-  set(HPDF_INFO_TITLE, info.title);
-  set(HPDF_INFO_AUTHOR, info.author);
-  set(HPDF_INFO_SUBJECT, info.subject);
-  set(HPDF_INFO_CREATOR, info.creator);
-  if (info.created.empty()) return;
-  HPDF_String date = HPDF_String_New(document->mmgr, info.created.c_str(), nullptr);
-  Require(HPDF_Dict_Add(document->info, "CreationDate", date) == HPDF_OK);
-}
-
-PdfDocument::PdfDocument() : internals_(std::make_unique<Internals>()) {}
+PdfDocument::PdfDocument() = default;
 PdfDocument::~PdfDocument() = default;
 
-Result<std::unique_ptr<PdfDocument>> PdfDocument::Create(ArchiveLevel) {
+Result<std::unique_ptr<PdfDocument>> PdfDocument::Create(ArchiveLevel level) {
+  TELESTRAIN_RETURN_IF_ERROR(PdfFonts().CheckInstalled());
+  auto profile = ReadFile(kColorProfile);
+  if (!profile)
+    return OutputFailed("the colour profile of the report cannot be read: " +
+                        profile.error().message + "; install the package icc-profiles-free");
+  HPDF_Doc document = HPDF_New(nullptr, nullptr);
+  if (!document) return OutputFailed("the PDF library cannot start; free memory");
   std::unique_ptr<PdfDocument> pdf(new PdfDocument);
+  pdf->internals_ = std::make_unique<Internals>(document, level);
   Internals& in = *pdf->internals_;
-  for (const PdfFont& font : in.fonts)
-    if (font.required && font.path.empty())
-      return OutputFailed("a font of the report is not installed under " + std::string(kFolder) +
-                          "; install the package " + font.package);
-  in.document = HPDF_New(&Internals::Record, &in);
-  if (!in.document) return OutputFailed("the PDF library cannot start; free memory");
-  HPDF_SetCompressionMode(in.document, HPDF_COMP_ALL);
-  HPDF_UseUTFEncodings(in.document);
-  in.utf8 = HPDF_GetEncoder(in.document, "UTF-8");
-  HPDF_SetPageMode(in.document, HPDF_PAGE_MODE_USE_OUTLINE);
+  in.color_profile = std::move(profile).value();
+  HPDF_SetErrorHandler(document, &Internals::Record);
+  document->error.user_data = &in;
+  HPDF_SetCompressionMode(document, HPDF_COMP_ALL);
+  HPDF_UseUTFEncodings(document);
+  HPDF_SetPageMode(document, HPDF_PAGE_MODE_USE_OUTLINE);
   if (!in.ok()) return in.ErrorOfLibharu();
   return pdf;
 }
@@ -226,12 +193,16 @@ int PdfDocument::AddPage() {
   HPDF_Page page = HPDF_AddPage(in.document);
   if (!page) return 0;
   HPDF_Page_SetSize(page, HPDF_PAGE_SIZE_A4, HPDF_PAGE_PORTRAIT);
+  in.structure.CloseMark();
+  in.structure.AddPage(page);
+  in.objects.SetName(page, "Tabs", "S");  // reading order is also the order of links and fields
   in.pages.push_back(page);
   in.page = page;
   return static_cast<int>(in.pages.size()) - 1;
 }
 
 void PdfDocument::SelectPage(int index) {
+  internals_->structure.CloseMark();
   internals_->page = internals_->pages[static_cast<std::size_t>(index)];
 }
 
@@ -247,9 +218,11 @@ void PdfDocument::DrawText(const TextStyle& style, PagePoint at, const std::stri
                            Align align, double rotation_deg) {
   Internals& in = *internals_;
   const auto runs = in.Runs(style.face, text);
-  if (!in.ok() || runs.empty()) return;
+  if (runs.empty() || !in.Ready()) return;
   const double share = align == Align::kLeft ? 0 : align == Align::kCenter ? 0.5 : 1;
-  const double shift_pt = share > 0 ? share * TextWidth_pt(style, text) : 0;
+  // The space that a wrapped line ends with does not move it.
+  const std::string seen = text.substr(0, text.find_last_not_of(' ') + 1);
+  const double shift_pt = share > 0 ? share * TextWidth_pt(style, seen) : 0;
   const double c = std::cos(rotation_deg * kDegree_rad), s = std::sin(rotation_deg * kDegree_rad);
   in.SetFill(style.color);
   HPDF_Page_BeginText(in.page);
@@ -264,23 +237,23 @@ void PdfDocument::DrawText(const TextStyle& style, PagePoint at, const std::stri
 
 void PdfDocument::FillBox(const PageBox& box, Color color) {
   Internals& in = *internals_;
-  if (!in.ok()) return;
+  if (!in.Ready()) return;
   in.SetFill(color);
-  HPDF_Page_Rectangle(in.page, F(box.left_pt), F(box.bottom_pt), F(box.width_pt), F(box.height_pt));
+  in.AddBox(box);
   HPDF_Page_Fill(in.page);
 }
 
 void PdfDocument::StrokeBox(const PageBox& box, const Stroke& stroke) {
   Internals& in = *internals_;
-  if (!in.ok()) return;
+  if (!in.Ready()) return;
   in.SetStroke(stroke);
-  HPDF_Page_Rectangle(in.page, F(box.left_pt), F(box.bottom_pt), F(box.width_pt), F(box.height_pt));
+  in.AddBox(box);
   HPDF_Page_Stroke(in.page);
 }
 
 void PdfDocument::DrawPolyline(const std::vector<PagePoint>& points, const Stroke& stroke) {
   Internals& in = *internals_;
-  if (!in.ok() || points.size() < 2) return;
+  if (points.size() < 2 || !in.Ready()) return;
   in.SetStroke(stroke);
   in.MovePath(points);
   HPDF_Page_Stroke(in.page);
@@ -288,7 +261,7 @@ void PdfDocument::DrawPolyline(const std::vector<PagePoint>& points, const Strok
 
 void PdfDocument::FillPolygon(const std::vector<PagePoint>& points, Color color) {
   Internals& in = *internals_;
-  if (!in.ok() || points.size() < 3) return;
+  if (points.size() < 3 || !in.Ready()) return;
   in.SetFill(color);
   in.MovePath(points);
   HPDF_Page_ClosePath(in.page);
@@ -297,7 +270,7 @@ void PdfDocument::FillPolygon(const std::vector<PagePoint>& points, Color color)
 
 void PdfDocument::FillCircle(PagePoint center, double radius_pt, Color color) {
   Internals& in = *internals_;
-  if (!in.ok()) return;
+  if (!in.Ready()) return;
   in.SetFill(color);
   HPDF_Page_Circle(in.page, F(center.x_pt), F(center.y_pt), F(radius_pt));
   HPDF_Page_Fill(in.page);
@@ -305,9 +278,9 @@ void PdfDocument::FillCircle(PagePoint center, double radius_pt, Color color) {
 
 void PdfDocument::BeginClip(const PageBox& box) {
   Internals& in = *internals_;
-  if (!in.ok()) return;
+  if (!in.Ready()) return;
   HPDF_Page_GSave(in.page);
-  HPDF_Page_Rectangle(in.page, F(box.left_pt), F(box.bottom_pt), F(box.width_pt), F(box.height_pt));
+  in.AddBox(box);
   HPDF_Page_Clip(in.page);
   HPDF_Page_EndPath(in.page);
 }
@@ -316,63 +289,59 @@ void PdfDocument::EndClip() {
   if (internals_->ok()) HPDF_Page_GRestore(internals_->page);
 }
 
-void PdfDocument::DrawImage(const RgbImage& image, const PageBox& box) {
+void PdfDocument::DrawImage(RgbImage image, const PageBox& box) {
   Internals& in = *internals_;
+  if (!in.Ready()) return;
+  HPDF_Dict object = in.images.Add(std::move(image));
   if (!in.ok()) return;
-  HPDF_Image object = HPDF_LoadRawImageFromMem(
-      in.document, image.pixels.data(), static_cast<HPDF_UINT>(image.width_px),
-      static_cast<HPDF_UINT>(image.height_px), HPDF_CS_DEVICE_RGB, 8);
-  if (!object) return;
-  const std::string rows = PredictRows(image);
-  HPDF_MemStream_FreeData(object->stream);
-  in.Require(HPDF_Stream_Write(object->stream, reinterpret_cast<const HPDF_BYTE*>(rows.data()),
-                               static_cast<HPDF_UINT>(rows.size())) == HPDF_OK);
-  HPDF_Dict parameters = HPDF_Dict_New(in.document->mmgr);
-  HPDF_Dict_AddNumber(parameters, "Predictor", 15);
-  HPDF_Dict_AddNumber(parameters, "Colors", 3);
-  HPDF_Dict_AddNumber(parameters, "BitsPerComponent", 8);
-  HPDF_Dict_AddNumber(parameters, "Columns", image.width_px);
-  object->filterParams = parameters;
   HPDF_Page_DrawImage(in.page, object, F(box.left_pt), F(box.bottom_pt), F(box.width_pt),
                       F(box.height_pt));
 }
 
+int PdfDocument::BeginTag(const PdfTag& tag) { return internals_->structure.Begin(tag); }
+void PdfDocument::ResumeTag(int number) { internals_->structure.Resume(number); }
+void PdfDocument::EndTag() { internals_->structure.End(); }
+void PdfDocument::BeginDecoration(Decoration kind) { internals_->structure.BeginDecoration(kind); }
+void PdfDocument::EndDecoration() { internals_->structure.EndDecoration(); }
+
+void PdfDocument::AddDestination(const std::string& name, double top_pt) {
+  if (internals_->page) internals_->annotations.AddDestination(name, internals_->page, top_pt);
+}
+
+void PdfDocument::AddLink(const PageBox& box, const std::string& destination) {
+  if (internals_->page) internals_->annotations.AddLink(box, destination, internals_->page);
+}
+
+void PdfDocument::Attach(PdfAttachment attachment) {
+  if (internals_->level == ArchiveLevel::k3a)
+    internals_->attachments.push_back(std::move(attachment));
+}
+
+void PdfDocument::AddSignatureField(const std::string& name, const std::string& tip,
+                                    const PageBox& box) {
+  if (internals_->page && internals_->level == ArchiveLevel::k3a)
+    internals_->annotations.AddSignatureField(name, tip, box, internals_->page);
+}
+
 void PdfDocument::AddBookmark(const std::string& title, int level, double top_pt) {
   Internals& in = *internals_;
-  if (!in.ok()) return;
+  if (!in.ok() || !in.page) return;
   HPDF_Outline parent = level > 1 ? in.chapter : nullptr;
-  HPDF_Outline entry = HPDF_CreateOutline(in.document, parent, title.c_str(), in.utf8);
+  HPDF_Outline entry = HPDF_CreateOutline(in.document, parent, "", nullptr);
   if (!entry) return;
-  // Written by hand: libharu's destinations force a zoom factor upon the reader.
-  HPDF_Array target = HPDF_Array_New(in.document->mmgr);
-  const bool done = HPDF_Array_Add(target, in.page) == HPDF_OK &&
-                    HPDF_Array_AddName(target, "XYZ") == HPDF_OK &&
-                    HPDF_Array_Add(target, HPDF_Null_New(in.document->mmgr)) == HPDF_OK &&
-                    HPDF_Array_AddReal(target, F(top_pt)) == HPDF_OK &&
-                    HPDF_Array_Add(target, HPDF_Null_New(in.document->mmgr)) == HPDF_OK &&
-                    HPDF_Dict_Add(entry, "Dest", target) == HPDF_OK;
-  in.Require(done);
+  in.objects.SetText(entry, "Title", title);
+  in.objects.Set(entry, "Dest", in.objects.MakeDestination(in.page, top_pt));
   if (level <= 1) in.chapter = entry;
 }
 
 Result<std::string> PdfDocument::Save(const PdfInfo& info, const std::string& id_seed) {
   Internals& in = *internals_;
-  in.SetInfo(info);
-  in.AddTrailerId(id_seed);
-  for (PdfFont& font : in.fonts) in.Require(FinishFont(in.document, font));
   if (!in.ok()) return in.ErrorOfLibharu();
-  HPDF_SaveToStream(in.document);
+  in.WriteCatalog(CleanInfo(info));
   if (!in.ok()) return in.ErrorOfLibharu();
-  HPDF_ResetStream(in.document);
-  std::string bytes;
-  std::vector<HPDF_BYTE> buffer(1 << 16);
-  for (;;) {
-    auto size = static_cast<HPDF_UINT32>(buffer.size());
-    const HPDF_STATUS status = HPDF_ReadFromStream(in.document, buffer.data(), &size);
-    bytes.append(reinterpret_cast<const char*>(buffer.data()), size);
-    if (status == HPDF_STREAM_EOF || size == 0) return bytes;
-    if (status != HPDF_OK) return in.ErrorOfLibharu();
-  }
+  TELESTRAIN_ASSIGN_OR_RETURN(std::string bytes, in.Bytes());
+  ReplaceId(bytes, Sha256Hex(Sha256Hex(bytes) + id_seed));
+  return bytes;
 }
 
 }  // namespace telestrain

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,11 +25,16 @@ struct PdfInfo {
 enum class ArchiveLevel { k3a, k1b };
 
 // A piece of the page by its meaning, as PDF names it: "H1" "H2" "P" "Table" "TR" "TH" "TD"
-// "Figure" "Caption" "L" "LI" "LBody" "Note" "Link" "Sect" "Span".
+// "Figure" "Caption" "L" "LI" "Lbl" "LBody" "Note" "Link" "Sect" "Span".
 struct PdfTag {
   std::string type;
-  std::string alternative_text;  // of a figure or a link: what it shows, in words
+  std::string alternative_text = {};  // of a figure: what it shows; of a link: where it leads
+  std::string scope = {};             // of a TH: "Column" or "Row"
+  std::optional<PageBox> box = {};    // of a figure: where it is
 };
+
+// What decoration is: furniture of every page, or of the place where it stands.
+enum class Decoration { kLayout, kPageHeader, kPageFooter };
 
 // A file inside the file, PDF/A-3's associated file.
 struct PdfAttachment {
@@ -68,30 +74,40 @@ class PdfDocument {
   void BeginClip(const PageBox& box);
   void EndClip();
 
-  void DrawImage(const RgbImage& image, const PageBox& box);
+  // Compresses in threads of its own, two at most; drop or move the pixels if you can.
+  void DrawImage(RgbImage image, const PageBox& box);
+
   // Everything drawn until the matching EndTag, on however many pages, is a piece of this meaning;
   // tags nest. What is drawn with no tag open, or directly in one that only groups others (Table,
-  // TR, L, Sect), is decoration that a reading aid skips. Use ScopedTag.
-  void BeginTag(const PdfTag& tag);
+  // TR, L, LI, Caption, Sect), is decoration that a reading aid skips. Pieces are read in the order
+  // in which they began, not where they stand. Heading levels that a document skips are closed up;
+  // a tag that nothing was drawn in is left out, cells of tables are not. Use ScopedTag.
+  // Returns the number of the piece, for ResumeTag.
+  int BeginTag(const PdfTag& tag);
+  // Goes on with a piece that was ended before: a cell that is cut over two pages.
+  void ResumeTag(int number);
   void EndTag();
   // Until the matching EndDecoration nothing is part of the open tag: repeated table headers,
   // lines.
-  void BeginDecoration();
+  void BeginDecoration(Decoration kind = Decoration::kLayout);
   void EndDecoration();
 
   // A place that links can name; one that is named twice keeps its first place.
   void AddDestination(const std::string& name, double top_pt);
   // A link from `box` of the current page to a destination, which may be added later. It belongs
-  // to the open tag, which should be a "Link". A link to nowhere is left out by Save.
+  // to the open tag, a "Link" whose alternative text says where it leads. A link to nowhere is left
+  // out by Save.
   void AddLink(const PageBox& box, const std::string& destination);
   void Attach(PdfAttachment attachment);
-  // An empty signature field of the current page, to be filled by `telestrain sign`.
+  // An empty signature field of the current page, to be filled by `telestrain sign`. A second one
+  // of the same name is left out.
   void AddSignatureField(const std::string& name, const std::string& tip, const PageBox& box);
 
   // An entry of the outline, pointing at `top_pt` of the current page; `level` 1 or 2.
   void AddBookmark(const std::string& title, int level, double top_pt);
 
-  // The bytes of the file. Its /ID is made of `id_seed`, so equal calls give equal bytes.
+  // The bytes of the file; to be called once. Its /ID is the hash of them and of `id_seed`, so
+  // equal calls give equal bytes. An empty title becomes "Report".
   Result<std::string> Save(const PdfInfo& info, const std::string& id_seed);
 
  private:
@@ -102,10 +118,28 @@ class PdfDocument {
 
 class ScopedTag {
  public:
-  ScopedTag(PdfDocument& pdf, const PdfTag& tag) : pdf_(pdf) { pdf_.BeginTag(tag); }
+  ScopedTag(PdfDocument& pdf, const PdfTag& tag) : pdf_(pdf), number_(pdf.BeginTag(tag)) {}
+  ScopedTag(PdfDocument& pdf, int resumed) : pdf_(pdf), number_(resumed) {
+    pdf_.ResumeTag(resumed);
+  }
   ~ScopedTag() { pdf_.EndTag(); }
   ScopedTag(const ScopedTag&) = delete;
   ScopedTag& operator=(const ScopedTag&) = delete;
+  int number() const { return number_; }
+
+ private:
+  PdfDocument& pdf_;
+  int number_;
+};
+
+class ScopedDecoration {
+ public:
+  explicit ScopedDecoration(PdfDocument& pdf, Decoration kind = Decoration::kLayout) : pdf_(pdf) {
+    pdf_.BeginDecoration(kind);
+  }
+  ~ScopedDecoration() { pdf_.EndDecoration(); }
+  ScopedDecoration(const ScopedDecoration&) = delete;
+  ScopedDecoration& operator=(const ScopedDecoration&) = delete;
 
  private:
   PdfDocument& pdf_;

@@ -96,21 +96,43 @@ bool ReplaceStream(HPDF_Dict dictionary, const std::string& bytes) {
 }
 
 // /W and the CIDToGIDMap cover the whole font otherwise: 340 kB for a Chinese one.
-bool KeepUsedWidths(HPDF_Doc document, PdfFont& font, HPDF_FontAttr attributes) {
-  HPDF_Array widths = HPDF_Array_New(document->mmgr);
+bool KeepUsedWidths(PdfObjects& objects, PdfFont& font, HPDF_FontAttr attributes) {
+  HPDF_Array widths = objects.MakeArray();
   std::string glyph_of_code(2 * (std::size_t{*font.used.rbegin()} + 1), '\0');
   for (const HPDF_UINT16 point : font.used) {
     const unsigned glyph = font.GlyphOf(point);
     glyph_of_code[2 * std::size_t{point}] = static_cast<char>(glyph >> 8);
     glyph_of_code[2 * std::size_t{point} + 1] = static_cast<char>(glyph & 0xFF);
-    HPDF_Array one = HPDF_Array_New(document->mmgr);
-    const auto width = static_cast<HPDF_INT32>(font.Advance(point));
-    if (HPDF_Array_AddNumber(one, width) != HPDF_OK ||
-        HPDF_Array_AddNumber(widths, point) != HPDF_OK || HPDF_Array_Add(widths, one) != HPDF_OK)
-      return false;
+    HPDF_Array one = objects.MakeArray();
+    objects.AppendNumber(one, static_cast<int>(font.Advance(point)));
+    objects.AppendNumber(widths, point);
+    objects.Append(widths, one);
   }
-  return HPDF_Dict_Add(attributes->descendant_font, "W", widths) == HPDF_OK &&
-         ReplaceStream(attributes->map_stream, glyph_of_code);
+  objects.Set(attributes->descendant_font, "W", widths);
+  return ReplaceStream(attributes->map_stream, glyph_of_code);
+}
+
+// A bit per character code, 0 (the missing glyph) included; PDF 32000-1, table 124.
+std::string CidSet(const std::set<HPDF_UINT16>& used) {
+  std::string bits(std::size_t{*used.rbegin()} / 8 + 1, '\0');
+  const auto set = [&](unsigned cid) {
+    bits[cid / 8] = static_cast<char>(static_cast<unsigned char>(bits[cid / 8]) | 0x80u >> cid % 8);
+  };
+  set(0);
+  for (const HPDF_UINT16 cid : used) set(cid);
+  return bits;
+}
+
+// libharu makes the descriptor when it writes the font; here it is made before, to be completed.
+bool CompleteDescriptor(PdfObjects& objects, const PdfFont& font, bool with_cid_set) {
+  HPDF_FontDef definition = font.definition();
+  if (font.font->before_write_fn(font.font) != HPDF_OK || !definition->descriptor) return false;
+  font.font->before_write_fn = nullptr;
+  const int height = definition->cap_height > 0 ? definition->cap_height : definition->ascent;
+  objects.SetNumber(definition->descriptor, "CapHeight", height);
+  if (with_cid_set)
+    objects.Set(definition->descriptor, "CIDSet", objects.MakeStream(CidSet(font.used), true));
+  return objects.ok();
 }
 
 }  // namespace
@@ -150,14 +172,15 @@ bool LoadFont(HPDF_Doc document, PdfFont& font) {
   return font.font != nullptr;
 }
 
-bool FinishFont(HPDF_Doc document, PdfFont& font) {
+bool FinishFont(PdfObjects& objects, PdfFont& font, bool with_cid_set) {
   if (!font.loaded()) return true;
   font.used.insert(HPDF_UINT16{32});  // a font that was only asked for a glyph stays well-formed
   auto* attributes = static_cast<HPDF_FontAttr>(font.font->attr);
   MarkComponents(attributes->fontdef);
+  objects.SetName(attributes->cmap_stream, "CMapName", "Adobe-Identity-UCS");
   return ReplaceStream(attributes->cmap_stream, ToUnicodeMap(font.used)) &&
-         HPDF_Dict_AddName(attributes->cmap_stream, "CMapName", "Adobe-Identity-UCS") == HPDF_OK &&
-         KeepUsedWidths(document, font, attributes);
+         KeepUsedWidths(objects, font, attributes) &&
+         CompleteDescriptor(objects, font, with_cid_set);
 }
 
 }  // namespace telestrain

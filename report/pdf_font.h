@@ -1,6 +1,6 @@
 #pragma once
 
-// Included by pdf_document.cpp and pdf_font.cpp only: libharu stays inside them.
+// Included by the pdf_*.cpp files only: libharu stays inside them.
 
 #include <hpdf.h>
 #include <hpdf_doc.h>
@@ -11,6 +11,8 @@
 #include <set>
 #include <string>
 #include <vector>
+
+#include "report/pdf_objects.h"
 
 namespace telestrain {
 
@@ -38,8 +40,9 @@ PdfFont FindFont(const std::vector<std::string>& candidates, int collection_inde
 bool LoadFont(HPDF_Doc document, PdfFont& font);
 
 // To be called once, before saving: marks the parts of composite glyphs of every depth (libharu
-// marks the first level only and the others vanish), writes a well-formed ToUnicode map, and keeps
-// widths and glyph map of the used characters only. False when libharu ran out of memory.
-bool FinishFont(HPDF_Doc document, PdfFont& font);
+// marks the first level only and the others vanish), writes a well-formed ToUnicode map, keeps
+// widths and glyph map of the used characters only, and completes the descriptor with what PDF/A
+// wants: the height of capitals and, of PDF/A-1, the set of characters. False when libharu failed.
+bool FinishFont(PdfObjects& objects, PdfFont& font, bool with_cid_set);
 
 }  // namespace telestrain

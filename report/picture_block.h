@@ -12,8 +12,8 @@ void DrawCaption(PageFlow& flow, const std::string& caption);
 double CaptionHeight_pt(PageFlow& flow, const std::string& caption);
 
 // A picture in the middle of the column, `pixel_pt` a pixel or smaller where it is too large for
-// the page, with its caption on the same page.
-void DrawPictureBlock(PageFlow& flow, const RgbImage& image, double pixel_pt,
-                      const std::string& caption);
+// the page, with its caption on the same page. `words` says what it shows to who cannot see it.
+void DrawPictureBlock(PageFlow& flow, RgbImage image, double pixel_pt, const std::string& caption,
+                      const std::string& words);
 
 }  // namespace telestrain

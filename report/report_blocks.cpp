@@ -5,6 +5,7 @@
 
 #include "report/picture_block.h"
 #include "report/report_charts.h"
+#include "report/signature_block.h"
 #include "report/table_block.h"
 #include "report/text_wrap.h"
 
@@ -35,6 +36,13 @@ void DrawLogo(const ReportContext& context, const PageBox& box) {
                                 box.width_pt - 2 * kLogoEdge_pt, box.height_pt - 2 * kLogoEdge_pt});
 }
 
+// Lines of a text as a piece of their own.
+double TaggedText(PageFlow& flow, const PdfTag& tag, const TextStyle& style, PagePoint top_left,
+                  double width_pt, const std::string& text, Align align = Align::kLeft) {
+  const ScopedTag piece(flow.pdf(), tag);
+  return flow.TextBlock(style, top_left, width_pt, text, align);
+}
+
 // The coloured band over the whole width of the first page.
 Status DrawTitle(const ReportContext& context, const Json& block) {
   PageFlow& flow = context.flow;
@@ -59,13 +67,13 @@ Status DrawTitle(const ReportContext& context, const Json& block) {
   flow.pdf().FillBox({0, kPageHeight_pt - band_pt, kPageWidth_pt, band_pt}, flow.look().accent);
   DrawLogo(context, logo);
   double y_pt = kPageHeight_pt - 22;
-  y_pt -= flow.TextBlock(title, {x_pt, y_pt}, left_pt, text) + 3;
-  flow.TextBlock(subtitle, {x_pt, y_pt}, left_pt, below);
+  y_pt -= TaggedText(flow, {"H1"}, title, {x_pt, y_pt}, left_pt, text) + 3;
+  TaggedText(flow, {"P"}, subtitle, {x_pt, y_pt}, left_pt, below);
   y_pt = kPageHeight_pt - 26;
   for (std::size_t i = 0; i < right.size(); ++i)
-    y_pt -= flow.TextBlock(right_style(i), {flow.right_pt() - right_pt, y_pt}, right_pt,
-                           context.layout.Fill(right[i].get<std::string>(), context.values),
-                           Align::kRight);
+    y_pt -=
+        TaggedText(flow, {"P"}, right_style(i), {flow.right_pt() - right_pt, y_pt}, right_pt,
+                   context.layout.Fill(right[i].get<std::string>(), context.values), Align::kRight);
   flow.MoveTo(kPageHeight_pt - band_pt - 16);
   return {};
 }
@@ -90,9 +98,12 @@ Status DrawVerdict(const ReportContext& context, const Json& block) {
   const int page = flow.pdf().PageCount();
   flow.pdf().FillBox({flow.right_pt() - width_pt, top_pt - height_pt, width_pt, height_pt},
                      flow.look().OfVerdict(verdict));
-  flow.pdf().DrawText(
-      style, {flow.right_pt() - width_pt / 2, top_pt - height_pt / 2 - 0.36 * style.size_pt}, text,
-      Align::kCenter);
+  {
+    const ScopedTag badge(flow.pdf(), PdfTag{"P"});
+    flow.pdf().DrawText(
+        style, {flow.right_pt() - width_pt / 2, top_pt - height_pt / 2 - 0.36 * style.size_pt},
+        text, Align::kCenter);
+  }
   DrawFacts(flow, context.Table(TextAt(block, "/table")), 1, flow.width_pt() - width_pt - 14,
             [](const std::string& name) { return name; });
   if (flow.pdf().PageCount() == page) flow.MoveTo(std::min(flow.y_pt(), top_pt - height_pt - 10));
@@ -110,7 +121,9 @@ Status DrawHeading(const ReportContext& context, const Json& block) {
   flow.Require(style.LineHeight_pt() + 70);  // not alone at the foot of a page
   flow.Advance(level == 1 ? 8 : 4);
   flow.pdf().AddBookmark(text, level, flow.y_pt() + 8);
-  flow.Paragraph(style, text);
+  const std::string id = TextAt(block, "/id");
+  if (!id.empty()) flow.pdf().AddDestination(id, flow.y_pt() + 8);
+  flow.Paragraph(style, text, {level == 1 ? "H2" : "H3"});  // H1 is the title band
   flow.Advance(level == 1 ? 5 : 3);
   return {};
 }
@@ -164,6 +177,15 @@ Status DrawTableBlock(const ReportContext& context, const Json& block) {
   return {};
 }
 
+// What a chart shows, for who cannot see it: its name and what the caption says of it.
+std::string ChartWords(const ReportContext& context, const std::string& name,
+                       const std::string& caption) {
+  std::string words = name;
+  std::replace(words.begin(), words.end(), '-', ' ');
+  return context.layout.Say("Chart") + ": " + context.layout.Say(words) +
+         (caption.empty() ? "" : ". " + caption);
+}
+
 Status DrawChartBlock(const ReportContext& context, const Json& block) {
   PageFlow& flow = context.flow;
   const Json& names = ListAt(block, "/charts");
@@ -174,8 +196,11 @@ Status DrawChartBlock(const ReportContext& context, const Json& block) {
   const double width_pt = (flow.width_pt() - gap_pt * (count - 1)) / count;
   double left_pt = flow.left_pt();
   for (const Json& name : names) {
-    TELESTRAIN_RETURN_IF_ERROR(DrawChart(context, name.get<std::string>(),
-                                         {left_pt, flow.y_pt() - height_pt, width_pt, height_pt}));
+    const PageBox box{left_pt, flow.y_pt() - height_pt, width_pt, height_pt};
+    const ScopedTag figure(
+        flow.pdf(),
+        PdfTag{"Figure", ChartWords(context, name.get<std::string>(), caption), "", box});
+    TELESTRAIN_RETURN_IF_ERROR(DrawChart(context, name.get<std::string>(), box));
     left_pt += width_pt + gap_pt;
   }
   flow.Advance(height_pt);
@@ -186,32 +211,10 @@ Status DrawChartBlock(const ReportContext& context, const Json& block) {
 Status DrawPicture(const ReportContext& context, const Json& block) {
   const auto path = context.folder / "pictures" / TextAt(block, "/file");
   if (!std::filesystem::exists(path)) return DrawOtherwise(context, block);
-  TELESTRAIN_ASSIGN_OR_RETURN(const RgbImage image, ReadPng(path));
-  DrawPictureBlock(context.flow, image, kPixel_pt, context.Fill(block, "caption"));
-  return {};
-}
-
-Status DrawSignatures(const ReportContext& context, const Json& block) {
-  PageFlow& flow = context.flow;
-  const Json& roles = ListAt(block, "/roles");
-  const double gap_pt = 10, height_pt = 84, count = static_cast<double>(roles.size());
-  const double width_pt = (flow.width_pt() - gap_pt * (count - 1)) / count;
-  flow.Require(height_pt + 10);
-  const Look& look = flow.look();
-  PageBox box{flow.left_pt(), flow.y_pt() - height_pt, width_pt, height_pt};
-  for (const Json& role : roles) {
-    flow.pdf().FillBox(box, ColorOf(0xFAFBFC));
-    flow.pdf().StrokeBox(box, {look.line, 0.8});
-    flow.TextBlock({Face::kBold, 9, look.accent}, {box.left_pt + 8, box.top_pt() - 6},
-                   width_pt - 16, context.layout.Say(role));
-    const double line_pt = box.bottom_pt + 24;
-    flow.pdf().DrawLine({box.left_pt + 8, line_pt}, {box.right_pt() - 8, line_pt},
-                        {look.muted, 0.5});
-    flow.TextBlock({Face::kRegular, 7.5, look.muted}, {box.left_pt + 8, line_pt - 3}, width_pt - 16,
-                   context.Fill(block, "note"));
-    box.left_pt += width_pt + gap_pt;
-  }
-  flow.Advance(height_pt + 12);
+  TELESTRAIN_ASSIGN_OR_RETURN(RgbImage image, ReadPng(path));
+  const std::string caption = context.Fill(block, "caption");
+  DrawPictureBlock(context.flow, std::move(image), kPixel_pt, caption,
+                   caption.empty() ? path.filename().string() : caption);
   return {};
 }
 
@@ -225,8 +228,8 @@ Status DrawEndMark(const ReportContext& context, const Json& block) {
   const TextStyle style = flow.look().Note();
   flow.Require(style.LineHeight_pt() + 8);
   flow.Advance(6);
-  flow.Advance(flow.TextBlock(style, {flow.left_pt(), flow.y_pt()}, flow.width_pt(),
-                              context.Fill(block, "text"), Align::kCenter));
+  flow.Advance(TaggedText(flow, {"P"}, style, {flow.left_pt(), flow.y_pt()}, flow.width_pt(),
+                          context.Fill(block, "text"), Align::kCenter));
   return {};
 }
 
@@ -269,13 +272,16 @@ void DrawPageFrames(const ReportContext& context) {
     const auto text = [&](const char* key) {
       return context.layout.Fill(TextAt(context.layout.json(), key), values);
     };
+    pdf.BeginDecoration(Decoration::kPageFooter);
     pdf.DrawLine({flow.left_pt(), footer_pt + 12}, {flow.right_pt(), footer_pt + 12},
                  {look.line, 0.6});
     DrawFrameLine(flow, {Face::kRegular, 7.5, look.muted}, footer_pt, text("/footer/left"),
                   Align::kLeft);
     DrawFrameLine(flow, {Face::kRegular, 7.5, look.muted}, footer_pt, text("/footer/right"),
                   Align::kRight);
+    pdf.EndDecoration();
     if (page == 0) continue;  // the title band says it larger
+    const ScopedDecoration header(pdf, Decoration::kPageHeader);
     DrawFrameLine(flow, {Face::kBold, 8.5, look.accent}, header_pt, text("/header/left"),
                   Align::kLeft);
     DrawFrameLine(flow, {Face::kRegular, 8.5, look.muted}, header_pt, text("/header/right"),

@@ -39,18 +39,22 @@ void AddStereoAngles(const Json& calibration, ResultTable& table) {
                     FixedCell(angle, 2), "°");
 }
 
-// `cell`, or "not measured" where it has no value.
-Json OrNotMeasured(Json cell) {
-  return EntryAt(cell, "/value").is_null() ? Json(kNotMeasured) : std::move(cell);
+// A row of a value that may be missing.
+void AddMeasured(const char* name, Json cell, const char* unit, ResultTable& table) {
+  if (EntryAt(cell, "/value").is_null())
+    table.AddFact(name, kNotMeasured);
+  else
+    table.AddFact(name, std::move(cell), unit);
 }
 
 void AddImageScale(const Json& calibration, const Acceptance& acceptance, ResultTable& table) {
   const auto scale = NumberAt(calibration, "/lens/magnification_px_per_mm");
   const auto expanded =
       acceptance.Expanded(NumberAt(calibration, "/lens/sigma_magnification_px_per_mm"));
-  table.AddFact("Image scale",
-                scale ? UncertainCell(*scale, expanded, SignificantCell(scale, 6)) : kNotMeasured,
-                "px/mm");
+  AddMeasured(
+      "Image scale",
+      UncertainCell(scale.value_or(0), scale ? expanded : std::nullopt, SignificantCell(scale, 6)),
+      "px/mm", table);
 }
 
 // The same in both tables of the correlation.
@@ -96,7 +100,7 @@ void AddFields(const Json& calibration, ResultTable& table) {
   }
   for (const auto& [size, views] : sizes)
     table.AddFact(Phrase("Field of view of {{views}}", {{"views", views}}), size, "mm");
-  if (sizes.empty()) table.AddFact("Field of view", kNotMeasured, "mm");
+  if (sizes.empty()) table.AddFact("Field of view", kNotMeasured);
 }
 
 void AddCamera(const Json& inputs, const Json& calibration, const Acceptance& acceptance,
@@ -119,9 +123,9 @@ void AddCamera(const Json& inputs, const Json& calibration, const Acceptance& ac
 void AddFloorFact(const Json& strain, ResultTable& table) {
   const auto still = NumberAt(strain, "/sequence/noise_floor_still/sd_microstrain"),
              moved = NumberAt(strain, "/sequence/noise_floor_moved/sd_microstrain");
-  table.AddFact(still || !moved ? "Strain noise floor, standard deviation at rest"
-                                : "Strain noise floor, standard deviation between moved states",
-                OrNotMeasured(UncertaintyCell(still ? still : moved)), "µε");
+  AddMeasured(still || !moved ? "Strain noise floor, standard deviation at rest"
+                              : "Strain noise floor, standard deviation between moved states",
+              UncertaintyCell(still ? still : moved), "µε", table);
 }
 
 // The reporting table of the iDICs good practices guide. What nobody measured says so.
@@ -131,12 +135,12 @@ void AddReportingTable(const Json& inputs, const Json& calibration, const Json& 
       FactTable("idics", "Correlation, reported after the iDICs good practices guide");
   AddCamera(inputs, calibration, draft.acceptance, table);
   table.AddFact("Pattern, how it was made", TextAt(inputs, "/document/pattern", kNotStated));
-  table.AddFact("Pattern, size of a feature", kNotMeasured, "px");
+  table.AddFact("Pattern, size of a feature", kNotMeasured);
   AddSettings(strain, table);
   table.AddFact("Strain", TextAt(strain, "/definitions/strain", kNotStated));
   table.AddFact("Surface points", CountCell(NumberAt(strain, "/pipe/points")));
-  table.AddFact("Base length of the axial strain",
-                OrNotMeasured(FixedCell(NumberAt(strain, "/base_length_mm"), 4)), "mm");
+  AddMeasured("Base length of the axial strain", FixedCell(NumberAt(strain, "/base_length_mm"), 4),
+              "mm", table);
   AddFloorFact(strain, table);
   draft.AddTable(std::move(table));
 }

@@ -241,6 +241,25 @@ std::vector<LegendItem> LegendItems(const StudyPlot& plot, const Look& look) {
   return items;
 }
 
+// What the plot shows, in words.
+std::string Words(const StudyPlot& plot) {
+  std::string words = "Plot of " + plot.y.label + " over " + plot.x.label + ": " + plot.title + ".";
+  for (const StudySeries& series : plot.series) words += " " + series.name + ";";
+  for (const StudyLimit& limit : plot.limits) words += " " + limit.text + ";";
+  if (words.back() == ';') words.back() = '.';
+  return words;
+}
+
+void DrawFigure(PageFlow& flow, const StudyPlot& plot, PlotLegend& legend, double legend_pt,
+                double chart_pt) {
+  const double height_pt = legend_pt + chart_pt;
+  const PageBox box{flow.left_pt(), flow.y_pt() - height_pt, flow.width_pt(), height_pt};
+  const ScopedTag figure(flow.pdf(), PdfTag{"Figure", Words(plot), "", box});
+  legend.Draw({flow.left_pt(), flow.y_pt()});
+  StudyChart(flow, plot, {box.left_pt, box.bottom_pt, box.width_pt, chart_pt}).Draw();
+  flow.Advance(height_pt);
+}
+
 }  // namespace
 
 void DrawStudyPlot(PageFlow& flow, const StudyPlot& plot, double height_pt) {
@@ -251,13 +270,9 @@ void DrawStudyPlot(PageFlow& flow, const StudyPlot& plot, double height_pt) {
   const double below_pt = CaptionHeight_pt(flow, plot.caption);
   const double chart_pt = std::max(kLeastChart_pt, height_pt - above_pt - legend_pt - below_pt);
   flow.Require(above_pt + legend_pt + chart_pt + below_pt);
-  flow.Paragraph(title, plot.title);
+  flow.Paragraph(title, plot.title, {"H3"});
   flow.Advance(kLegendGap_pt);
-  legend.Draw({flow.left_pt(), flow.y_pt()});
-  flow.Advance(legend_pt);
-  StudyChart(flow, plot, {flow.left_pt(), flow.y_pt() - chart_pt, flow.width_pt(), chart_pt})
-      .Draw();
-  flow.Advance(chart_pt);
+  DrawFigure(flow, plot, legend, legend_pt, chart_pt);
   DrawCaption(flow, plot.caption);
 }
 

@@ -127,7 +127,9 @@ Status StudyDrawing::DrawImages(const std::vector<RgbImage>& images) {
     const double pixel_pt = PixelOf(images[i], beside_pt);
     flow_.Require(beside_pt + pixel_pt * images[i].height_px);
     if (i == 0) TELESTRAIN_RETURN_IF_ERROR(Heading("Images"));
-    DrawPictureBlock(flow_, images[i], pixel_pt, caption);
+    const std::string words = "Picture " + std::to_string(i + 1) + ": ";
+    DrawPictureBlock(flow_, images[i], pixel_pt, caption,
+                     words + (caption.empty() ? TextAt(list[i], "/file") : caption));
   }
   return {};
 }
@@ -148,12 +150,18 @@ Status StudyDrawing::DrawNotes() {
   frame.line_height_pt = flow_.look().Body().LineHeight_pt();
   frame.start_new_page = [this] { flow_.StartPage(); };
   constexpr double kBullet_pt = 12;
-  for (const Json& note : notes)
-    DrawRow(flow_,
-            {MakeCellLines(flow_.pdf(), flow_.look().Body(), flow_.left_pt(), kBullet_pt, "•"),
-             MakeCellLines(flow_.pdf(), flow_.look().Body(), flow_.left_pt() + kBullet_pt,
-                           flow_.width_pt() - kBullet_pt, note.get<std::string>())},
-            frame);
+  PdfDocument& pdf = flow_.pdf();
+  const ScopedTag list(pdf, PdfTag{"L"});
+  for (const Json& note : notes) {
+    const ScopedTag item(pdf, PdfTag{"LI"});
+    std::vector<CellLines> cells = {
+        MakeCellLines(pdf, flow_.look().Body(), flow_.left_pt(), kBullet_pt, "•"),
+        MakeCellLines(pdf, flow_.look().Body(), flow_.left_pt() + kBullet_pt,
+                      flow_.width_pt() - kBullet_pt, note.get<std::string>())};
+    cells[0].tag = ScopedTag(pdf, PdfTag{"Lbl"}).number();
+    cells[1].tag = ScopedTag(pdf, PdfTag{"LBody"}).number();
+    DrawRow(flow_, cells, frame);
+  }
   flow_.Advance(6);
   return {};
 }

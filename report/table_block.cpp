@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
 
 #include "report/cell_lines.h"
 #include "report/text_wrap.h"
@@ -47,8 +48,9 @@ class TableDrawing {
   }
   double HeaderHeight_pt();
   std::vector<CellLines> RowCells(const Json& row);
+  void TagRow(std::size_t row, std::vector<CellLines>& cells);
   RowFrame FrameOfRows();
-  void DrawHeader();
+  void DrawHeader(bool continued);
   void DrawTitle(bool continued);
   void DrawBottomRule();
 
@@ -174,6 +176,21 @@ std::vector<CellLines> TableDrawing::RowCells(const Json& row) {
   return cells;
 }
 
+// Every row has a cell for every column, empty or not; the first names the row.
+void TableDrawing::TagRow(std::size_t row, std::vector<CellLines>& cells) {
+  const ScopedTag row_tag(pdf_, PdfTag{"TR"});
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const bool names_row = i == 0 && cells.size() > 1 && !cells[i].lines.front().empty();
+    const PdfTag tag = names_row ? PdfTag{"TH", "", "Row"} : PdfTag{"TD"};
+    cells[i].tag = ScopedTag(pdf_, tag).number();
+  }
+  const Json& links = ListAt(table_, "/row_links");
+  if (row >= links.size() || cells.empty()) return;
+  cells[0].link =
+      links[row].is_string() ? links[row].get<std::string>() : TextAt(links[row], "/link");
+  for (const std::string& line : cells[0].lines) cells[0].leads += line;
+}
+
 RowFrame TableDrawing::FrameOfRows() {
   RowFrame frame;
   frame.line_height_pt = TextStyle{Face::kRegular, type_pt_, {}}.LineHeight_pt();
@@ -185,8 +202,9 @@ RowFrame TableDrawing::FrameOfRows() {
   frame.start_new_page = [this] {
     DrawBottomRule();
     flow_.StartPage();
+    const ScopedDecoration repeated(pdf_);
     DrawTitle(true);
-    DrawHeader();
+    DrawHeader(true);
     rows_on_page_ = 0;
   };
   return frame;
@@ -196,22 +214,30 @@ void TableDrawing::DrawTitle(bool continued) {
   if (!style_.show_title) return;
   const std::string title = TextAt(table_, "/title");
   const std::string text = style_.translate ? style_.translate(title) : title;
+  std::optional<ScopedTag> caption;
+  if (!continued) caption.emplace(pdf_, PdfTag{"Caption"});
   flow_.Paragraph(flow_.look().Strong(), continued ? text + " (" + style_.continued + ")" : text);
   flow_.Advance(3);
 }
 
-void TableDrawing::DrawHeader() {
+void TableDrawing::DrawHeader(bool continued) {
+  std::optional<ScopedTag> row, cell;
+  if (!continued) row.emplace(pdf_, PdfTag{"TR"});
   const double height_pt = HeaderHeight_pt();
   const double top_pt = flow_.y_pt();
   pdf_.FillBox({flow_.left_pt(), top_pt - height_pt, width_pt_, height_pt}, flow_.look().accent);
   double x_pt = flow_.left_pt();
   for (const Column& column : columns_) {
+    cell.reset();
+    if (!continued) cell.emplace(pdf_, PdfTag{"TH", "", "Column"});
     PagePoint at{x_pt + column.indent_pt, top_pt - kRowGap_pt / 2};
     at.y_pt -= flow_.TextBlock(HeaderStyle(), at, InnerWidth_pt(column), column.name, column.align);
     if (!column.unit.empty())
       flow_.TextBlock(UnitStyle(), at, InnerWidth_pt(column), column.unit, column.align);
     x_pt += column.width_pt;
   }
+  cell.reset();
+  row.reset();
   flow_.Advance(height_pt);
 }
 
@@ -228,9 +254,14 @@ void TableDrawing::Draw() {
   for (std::size_t i = 0; i < std::min<std::size_t>(rows.size(), 3); ++i)
     start_pt += RowHeight_pt(RowCells(rows[i]), frame);
   flow_.Require(std::min(start_pt, flow_.PageBody_pt()));
+  const ScopedTag tag(pdf_, PdfTag{"Table"});
   DrawTitle(false);
-  DrawHeader();
-  for (const Json& row : rows) DrawRow(flow_, RowCells(row), frame);
+  DrawHeader(false);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    std::vector<CellLines> cells = RowCells(rows[i]);
+    TagRow(i, cells);
+    DrawRow(flow_, cells, frame);
+  }
   DrawBottomRule();
   flow_.Advance(10);
 }

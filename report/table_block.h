@@ -17,9 +17,10 @@ struct TableStyle {
   std::function<std::string(const std::string&)> translate;  // of column names; may be empty
 };
 
-// Draws a table of results.json. Columns get the width their content needs; text columns wrap when
-// that is too much, then the type shrinks (to 6 pt), then words are cut: nothing is ever clipped or
-// overlaps. Breaks over pages between rows and repeats the header there.
+// Draws a table of results.json. "row_links": [destination or {"link": destination} or null, …] of
+// the table makes the first cell of such a row a link. Columns get the width their content needs;
+// text columns wrap when that is too much, then the type shrinks (to 6 pt), then words are cut:
+// nothing is ever clipped or overlaps. Breaks over pages between rows and repeats the header there.
 void DrawTable(PageFlow& flow, const Json& table, const TableStyle& style);
 
 // Draws a table of (name, value, unit) rows as lines "name   value unit", in one or two columns

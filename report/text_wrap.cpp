@@ -16,12 +16,21 @@ struct Word {
   bool new_line_before = false;
 };
 
+// Whether a line may break between two pieces that no space parts.
+bool MayBreakBetween(const std::string& before, const std::string& behind) {
+  return !MayNotEndLine(CodePoints(before).back()) && !MayNotBeginLine(CodePoints(behind).front());
+}
+
 std::vector<Word> SplitWords(const std::string& text) {
   std::vector<Word> words;
   Word next;
   const auto flush = [&] {
     if (next.text.empty()) return;
-    words.push_back(next);
+    const bool joined = !words.empty() && !next.space_before && !next.new_line_before;
+    if (joined && !MayBreakBetween(words.back().text, next.text))
+      words.back().text += next.text;
+    else
+      words.push_back(next);
     next = {};
   };
   for (const char32_t point : CodePoints(text)) {
@@ -79,14 +88,20 @@ std::vector<std::string> CutWord(PdfDocument& pdf, const TextStyle& style, const
 std::vector<std::string> WrapText(PdfDocument& pdf, const TextStyle& style, const std::string& text,
                                   double width_pt) {
   std::vector<std::string> lines(1);
+  const auto start_line = [&](const Word& word) {
+    if (lines.back().empty()) return;
+    if (word.space_before || word.new_line_before) lines.back() += ' ';
+    lines.emplace_back();
+  };
   for (const Word& word : SplitWords(text)) {
-    if (word.new_line_before && !lines.back().empty()) lines.emplace_back();
+    if (word.new_line_before) start_line(word);
     const bool joined = !lines.back().empty();
     const std::string longer = lines.back() + (joined && word.space_before ? " " : "") + word.text;
     if (pdf.TextWidth_pt(style, longer) <= width_pt + kSlack_pt) {
       lines.back() = longer;
       continue;
     }
+    start_line(word);
     for (const std::string& piece : CutWord(pdf, style, word.text, width_pt)) {
       if (!lines.back().empty()) lines.emplace_back();
       lines.back() = piece;

@@ -8,8 +8,11 @@
 namespace telestrain {
 
 // `text` in lines of at most `width_pt`. Breaks at spaces and line feeds, between Chinese
-// characters, and inside a word only when the word alone is wider: then behind one of "/_-.,:;"
-// where possible. At least one line; nothing of the text is lost but the spaces at the breaks.
+// characters but not before closing or behind opening punctuation, and inside a word only when the
+// word alone is wider: then behind one of "/_-.,:;" where possible. At least one line. A line that
+// was broken at a space or line feed ends with one space, which does not count for its width:
+// tagged text holds its word breaks (PDF 32000-1, 14.8.2.5), and the lines together are the text
+// with single spaces.
 std::vector<std::string> WrapText(PdfDocument& pdf, const TextStyle& style, const std::string& text,
                                   double width_pt);
 

@@ -69,4 +69,15 @@ bool BreaksAnywhere(char32_t c) {
          (c >= 0xF900 && c <= 0xFAFF) || (c >= 0xFF00 && c <= 0xFFEF);
 }
 
+bool MayNotBeginLine(char32_t c) {
+  static constexpr std::u32string_view kClosing =
+      U"!%),.:;?]}°’”…‰′″℃、。々〉》」』】〕〗〞ー·！％），．：；？］｝～￠";
+  return kClosing.find(c) != std::u32string_view::npos;
+}
+
+bool MayNotEndLine(char32_t c) {
+  static constexpr std::u32string_view kOpening = U"([{‘“〈《「『【〔〖〝（［｛￡￥";
+  return kOpening.find(c) != std::u32string_view::npos;
+}
+
 }  // namespace telestrain

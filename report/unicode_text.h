@@ -14,5 +14,9 @@ std::string Utf8(char32_t code_point);
 std::string CodePointName(char32_t code_point);
 // Scripts written without spaces, where a line may break after every character.
 bool BreaksAnywhere(char32_t code_point);
+// But not before closing punctuation, nor behind opening punctuation (of Chinese and of European
+// texts that stand in Chinese ones).
+bool MayNotBeginLine(char32_t code_point);
+bool MayNotEndLine(char32_t code_point);
 
 }  // namespace telestrain

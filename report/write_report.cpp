@@ -5,6 +5,7 @@
 #include "base/json_file.h"
 #include "base/numbers.h"
 #include "report/acceptance_report.h"
+#include "report/report_attachments.h"
 #include "report/report_blocks.h"
 
 namespace telestrain {
@@ -88,7 +89,10 @@ Status WriteReport(const std::filesystem::path& results, const ReportOptions& op
   TELESTRAIN_ASSIGN_OR_RETURN(const std::string bytes, ReadFile(path));
   Json values = layout.FillValues(read);
   values["file"] = {{"results_sha256", Sha256Hex(bytes)}};
-  const Json said = layout.SayTables(read);
+  TELESTRAIN_ASSIGN_OR_RETURN(std::vector<PdfAttachment> attachments, ReportAttachments(results));
+  Json extended = read;
+  extended["tables"].push_back(AttachmentsTable(attachments));
+  const Json said = layout.SayTables(std::move(extended));
   TELESTRAIN_ASSIGN_OR_RETURN(const auto pdf, PdfDocument::Create(options.level));
   PageFlow flow(*pdf, layout.look());
   flow.StartPage();
@@ -97,6 +101,7 @@ Status WriteReport(const std::filesystem::path& results, const ReportOptions& op
     TELESTRAIN_RETURN_IF_ERROR(
         DrawBlock(context, "/blocks/" + std::to_string(i), layout.blocks()[i]));
   DrawPageFrames(context);
+  for (PdfAttachment& attachment : attachments) pdf->Attach(std::move(attachment));
   TELESTRAIN_ASSIGN_OR_RETURN(
       const std::string file,
       pdf->Save(InfoOf(layout, read, values), bytes + layout.json().dump() + options.language));

@@ -4,6 +4,8 @@
 #include <sstream>
 
 #include "app/results_folder.h"
+#include "app/step_options.h"
+#include "app/step_record.h"
 #include "app/steps.h"
 #include "base/files.h"
 #include "base/json_file.h"
@@ -127,10 +129,22 @@ Result<PixelRegion> ReadRegion(const std::string& text) {
   return PixelRegion{numbers[0], numbers[1], numbers[2], numbers[3]};
 }
 
+StepRecord CalibrateRecord(const CalibrateChoices& choices) {
+  StepRecord record{"calibrate",
+                    OptionsJson(choices.arguments),
+                    {"session.toml", "calibration.csv"},
+                    {"inputs.json", "corners.vnl", "corner_covariances.csv", "detection.json"},
+                    {},
+                    {"calibration.json", "residuals.csv", "comparison.json"}};
+  if (choices.earlier) record.inputs_elsewhere = {choices.earlier->path};
+  return record;
+}
+
 }  // namespace
 
 Result<CalibrateChoices> ReadChoices(const CalibrateArguments& arguments) {
   CalibrateChoices choices;
+  choices.arguments = arguments;
   choices.options.robust = arguments.outliers == "weigh";
   if (arguments.outliers == "mrcal") choices.options.outliers.scale = OutlierScale::kMrcal;
   choices.options.board_warp = arguments.board_warp;
@@ -165,8 +179,10 @@ Status CalibrateStep(const Session& session, const fs::path& results,
       WriteJson(results / "calibration.json", CalibrationJson(session, calibration, made_from)));
   WarnOfStage(calibration.seed.decision, console);
   SayCalibration(calibration, console);
-  if (!choices.earlier) return {};
-  return Compare(session, results, *choices.earlier, calibration.bundle.state.array, console);
+  if (choices.earlier)
+    TELESTRAIN_RETURN_IF_ERROR(
+        Compare(session, results, *choices.earlier, calibration.bundle.state.array, console));
+  return RecordStep(results, CalibrateRecord(choices));
 }
 
 }  // namespace telestrain

@@ -37,8 +37,10 @@ std::unique_ptr<Command> MakeRenderCommand();
 std::unique_ptr<Command> MakeReportCommand();
 std::unique_ptr<Command> MakeReviewCommand();
 std::unique_ptr<Command> MakeExportCommand();
+std::unique_ptr<Command> MakeSignCommand();
 std::unique_ptr<Command> MakeStudyCommand();
 std::unique_ptr<Command> MakeRunCommand();
+std::unique_ptr<Command> MakeAuditCommand();
 
 // The two folders that most verbs take.
 struct SessionArguments {

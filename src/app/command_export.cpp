@@ -5,6 +5,7 @@
 
 #include "app/command.h"
 #include "app/results_folder.h"
+#include "app/step_record.h"
 #include "base/files.h"
 #include "base/numbers.h"
 #include "diagnostics/interchange.h"
@@ -140,7 +141,19 @@ class ExportCommand : public Command {
     if (Wants("paraview")) TELESTRAIN_RETURN_IF_ERROR(RemoveOldPieces(files));
     if (pieces > 0) names += "(" + CountText(pieces, "piece") + " below scene) ";
     console.Say("export     " + names + "in " + out_);
+    TELESTRAIN_RETURN_IF_ERROR(Record(files));
     return 0;
+  }
+
+  Status Record(const NamedFiles& files) const {
+    StepRecord record = SceneRecord("export", results_);
+    for (const char* name : {"corners.vnl", "corner_covariances.csv", "detection.json"})
+      record.inputs.push_back(name);
+    record.options = {{"format", formats_}, {"state", state_}, {"quantity", quantity_}};
+    record.options["out"] = RecordedPlace(results_, out_);
+    for (const auto& [name, bytes] : files) record.outputs.push_back(name);
+    record.outputs_folder = out_;
+    return RecordStep(results_, record);
   }
 
   std::string results_, out_, quantity_, state_ = "largest";

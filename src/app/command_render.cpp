@@ -3,6 +3,8 @@
 #include "app/command.h"
 #include "app/render_arguments.h"
 #include "app/results_folder.h"
+#include "app/step_options.h"
+#include "app/step_record.h"
 #include "app/steps.h"
 
 // telestrain render RESULTS
@@ -37,9 +39,21 @@ class RenderCommand : public Command {
  private:
   Status Film(const RenderOptions& options, Console& console) const {
     TELESTRAIN_RETURN_IF_ERROR(RequireConsistent(results_, Step::kRender));
-    if (!arguments_.turntable.empty())
-      return RenderTurntable(results_, options, arguments_.video, arguments_.turntable, console);
-    return RenderStates(results_, options, arguments_.video, arguments_.states, console);
+    const bool turns = !arguments_.turntable.empty();
+    TELESTRAIN_RETURN_IF_ERROR(
+        turns ? RenderTurntable(results_, options, arguments_.video, arguments_.turntable, console)
+              : RenderStates(results_, options, arguments_.video, arguments_.states, console));
+    const std::filesystem::path film = arguments_.Film();
+    StepRecord record = SceneRecord("render", results_);
+    record.options = OptionsJson(options);
+    for (const char* not_of_films : {"view", "reported", "state", "transparent"})
+      record.options.erase(not_of_films);
+    record.options["seconds"] = arguments_.video.seconds;
+    record.options["fps"] = arguments_.video.frames_per_second;
+    record.options[turns ? "turntable" : "states"] = RecordedPlace(results_, film);
+    record.outputs = {film.filename().string()};
+    record.outputs_folder = film.has_parent_path() ? film.parent_path() : ".";
+    return RecordStep(results_, record);
   }
 
   std::string results_;

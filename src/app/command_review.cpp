@@ -3,6 +3,7 @@
 
 #include "app/command.h"
 #include "app/results_folder.h"
+#include "app/step_record.h"
 #include "app/steps.h"
 #include "base/files.h"
 #include "base/json_file.h"
@@ -114,6 +115,14 @@ class ReviewCommand : public Command {
                              : std::string("no scene")) +
                 ", " + CountText(content.pictures.size(), "picture") + ", " +
                 CountText(content.results.at("tables").size(), "table"));
+    StepRecord record = SceneRecord("review", results_);
+    record.inputs.push_back("results.json");
+    for (const viz::ReviewPicture& picture : content.pictures)
+      record.inputs.push_back("pictures/" + picture.name);
+    record.options = {{"out", RecordedPlace(results_, out_)}};
+    record.outputs = {path.filename().string()};
+    record.outputs_folder = path.has_parent_path() ? path.parent_path() : ".";
+    TELESTRAIN_RETURN_IF_ERROR(RecordStep(results_, record));
     return 0;
   }
 

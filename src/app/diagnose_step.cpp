@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/results_folder.h"
+#include "app/step_record.h"
 #include "app/steps.h"
 #include "base/json_file.h"
 #include "base/numbers.h"
@@ -158,6 +159,14 @@ Result<int> DiagnoseStep(const fs::path& results, bool with_table, Console& cons
   TELESTRAIN_RETURN_IF_ERROR(
       WriteJson(results / "mrcal.json", DiagnosisJson(session, record, diagnosis, made_from)));
   SayDiagnosis(diagnosis, with_table, console);
+  TELESTRAIN_RETURN_IF_ERROR(
+      RecordStep(results, {"diagnose",
+                           nlohmann::ordered_json::object(),
+                           {},
+                           {"inputs.json", "calibration.json", "residuals.csv", "detection.json",
+                            "corners.vnl", "corner_covariances.csv"},
+                           {},
+                           {"mrcal.json"}}));
   return diagnosis.optimum && !diagnosis.optimum->agrees() ? 1 : 0;
 }
 

@@ -6,6 +6,7 @@
 #include <iostream>
 
 #include "app/command.h"
+#include "app/instrument_log.h"
 #include "base/numbers.h"
 
 namespace telestrain {
@@ -78,19 +79,50 @@ std::vector<std::unique_ptr<Command>> AllCommands() {
   commands.push_back(MakeRenderCommand());
   commands.push_back(MakeReportCommand());
   commands.push_back(MakeReviewCommand());
+  commands.push_back(MakeSignCommand());
   commands.push_back(MakeExportCommand());
   commands.push_back(MakeSimulateCommand());
   commands.push_back(MakeStudyCommand());
   commands.push_back(MakeDesignCommand());
   commands.push_back(MakeCorrelateCommand());
+  commands.push_back(MakeAuditCommand());
   return commands;
 }
 
-int RunCommand(Command& command, Console& console) {
+// Says what failed and gives its exit code.
+int Report(const std::string& verb, const Error& error, Console& console) {
+  console.Note("telestrain " + verb + ": " + error.message);
+  return static_cast<int>(error.kind);
+}
+
+// The results folder that a verb was given, by the name of its option; empty when it has none.
+std::filesystem::path ResultsOf(const CLI::App& verb) {
+  for (const char* name : {"RESULTS", "--out"})
+    if (const auto* option = verb.get_option_no_throw(name); option && option->count() > 0)
+      return option->results().front();
+  return {};
+}
+
+int RunCommand(Command& command, const CLI::App& verb, const InstrumentLog& log, LoggedRun run,
+               Console& console) {
+  if (const Status open = CheckLog(log); !open)
+    return Report(command.Name(), open.error(), console);
   const Result<int> result = command.Run(console);
-  if (result) return *result;
-  console.Note("telestrain " + command.Name() + ": " + result.error().message);
-  return static_cast<int>(result.error().kind);
+  run.verb = command.Name();
+  run.results = ResultsOf(verb);
+  run.exit_code = result ? *result : Report(command.Name(), result.error(), console);
+  if (const Status logged = LogRun(log, run); !logged)
+    return Report(command.Name(), logged.error(), console);
+  return run.exit_code;
+}
+
+void AddLogOptions(CLI::App& app, InstrumentLog& log) {
+  app.add_option("--instrument-log", log.file,
+                 "log of the instrument: every run adds a line, who did what when")
+      ->envname("TELESTRAIN_INSTRUMENT_LOG");
+  app.add_option("--instrument-key", log.key_file,
+                 "Ed25519 key in PEM that signs the lines of the log")
+      ->envname("TELESTRAIN_INSTRUMENT_KEY");
 }
 
 // The complaint about a first argument that is neither an option nor a verb; else empty.
@@ -113,6 +145,8 @@ int Main(int argc, char** argv) {
   app.set_version_flag("--version", "telestrain " TELESTRAIN_VERSION);
   app.require_subcommand(1);
   app.footer(kFooter);
+  InstrumentLog log;
+  AddLogOptions(app, log);
   auto commands = AllCommands();
   for (const auto& command : commands) {
     CLI::App* verb = app.add_subcommand(command->Name(), command->Summary());
@@ -130,7 +164,9 @@ int Main(int argc, char** argv) {
   }
   Console console(std::cout, std::cerr, ::isatty(STDERR_FILENO) != 0);
   for (const auto& command : commands)
-    if (app.got_subcommand(command->Name())) return RunCommand(*command, console);
+    if (app.got_subcommand(command->Name()))
+      return RunCommand(*command, *app.get_subcommand(command->Name()), log,
+                        {{}, {argv + 1, argv + argc}, {}, 0}, console);
   return kUsageExit;
 }
 

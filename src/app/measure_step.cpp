@@ -3,6 +3,8 @@
 #include <nlohmann/json.hpp>
 
 #include "app/results_folder.h"
+#include "app/step_options.h"
+#include "app/step_record.h"
 #include "app/steps.h"
 #include "app/strain_journal.h"
 #include "app/watched_folder.h"
@@ -157,6 +159,23 @@ Status WriteMeasurement(const PipeMeasurement& measurement, const fs::path& resu
   return {};
 }
 
+StepRecord MeasureRecord(const Session& session, const MeasureChoices& choices,
+                         const PipeMeasurement& measurement) {
+  StepRecord record{"measure",
+                    OptionsJson(choices.arguments),
+                    choices.watch ? std::vector<std::string>{"session.toml"} : PipeFiles(session),
+                    {"inputs.json", "calibration.json"},
+                    {},
+                    {"strain.csv", "strain_components.csv", "strain.json", "strain_states.jsonl"}};
+  for (std::size_t i = 0; i < measurement.states.size(); ++i) {
+    record.outputs.push_back(SurfaceFileName(i));
+    if (choices.watch)
+      record.inputs_elsewhere.push_back(choices.watch->folder /
+                                        fs::path(measurement.states[i].table.image).filename());
+  }
+  return record;
+}
+
 Error OutOfRange(const std::string& what) { return {ErrorKind::kUsage, what}; }
 
 }  // namespace
@@ -173,7 +192,7 @@ Result<MeasureChoices> ReadChoices(const MeasureArguments& arguments) {
                       ": the distance between subsets is at least 1 px");
   if (arguments.until < 0 || arguments.idle_s < 0)
     return OutOfRange("--until and --idle-s must not be negative");
-  MeasureChoices choices{subset_px, arguments.step_px, {}};
+  MeasureChoices choices{arguments, subset_px, arguments.step_px, {}};
   if (arguments.watch.empty()) return choices;
   std::error_code code;
   if (!fs::is_directory(arguments.watch, code))
@@ -189,13 +208,14 @@ Status MeasureStep(const Session& session, const fs::path& results, const Measur
   if (choices.watch) {
     TELESTRAIN_ASSIGN_OR_RETURN(const PipeMeasurement measurement,
                                 MeasureWatched(session, results, options, *choices.watch, console));
-    return WriteMeasurement(measurement, results, console);
+    TELESTRAIN_RETURN_IF_ERROR(WriteMeasurement(measurement, results, console));
+    return RecordStep(results, MeasureRecord(session, choices, measurement));
   }
   if (session.pipe_states.empty()) {
     TELESTRAIN_RETURN_IF_ERROR(LoadCalibration(session, results));
     TELESTRAIN_RETURN_IF_ERROR(RemoveOutputsFrom(results, Step::kMeasure));
     console.Say("measure    the session has no pipe images");
-    return {};
+    return RecordStep(results, MeasureRecord(session, choices, {}));
   }
   TELESTRAIN_ASSIGN_OR_RETURN(const PipeMeasurement measurement,
                               MeasureTable(session, results, options, console));
@@ -204,7 +224,7 @@ Status MeasureStep(const Session& session, const fs::path& results, const Measur
     console.Note("  " + state.table.image + ": " + FormatFixed(1e6 * state.strain.axial_strain, 2) +
                  " +- " + FormatFixed(1e6 * state.strain.standard_uncertainty, 2) +
                  " microstrain (standard uncertainty)");
-  return {};
+  return RecordStep(results, MeasureRecord(session, choices, measurement));
 }
 
 }  // namespace telestrain

@@ -37,7 +37,9 @@ Status ReadSize(const std::string& text, RenderOptions& options) {
 }  // namespace
 
 void RenderArguments::AddTo(CLI::App& app) {
-  app.add_option("--view", view, ViewHelp());
+  auto* one = app.add_option("--view", view, ViewHelp());
+  app.add_flag("--reported", reported, "only the pictures of the set that report.pdf shows")
+      ->excludes(one);
   app.add_option("--state", state,
                  OfViews("state of the pipe: its number from 0, its image or 'largest'"))
       ->capture_default_str();
@@ -70,7 +72,7 @@ void RenderArguments::AddFilmsTo(CLI::App& app) {
                                "range of colours");
   turn->excludes(cycle);
   for (auto* film : {turn, cycle})
-    for (const char* other : {"--view", "--out", "--transparent", "--state"})
+    for (const char* other : {"--view", "--out", "--transparent", "--state", "--reported"})
       film->excludes(app.get_option(other));
   for (const char* other : {"--quantity", "--range"}) turn->excludes(app.get_option(other));
   app.add_option("--seconds", video.seconds, "length of the film (default: 8; 1.5 per state)");
@@ -99,6 +101,7 @@ Result<RenderOptions> ReadOptions(const RenderArguments& arguments) {
   options.transparent = arguments.transparent;
   options.backend = arguments.backend == "egl" ? GlBackend::kEgl : GlBackend::kOsMesa;
   options.view = arguments.view;
+  options.only_reported = arguments.reported;
   options.state = arguments.state;
   options.quantity = arguments.quantity;
   if (arguments.range.size() == 2) options.range = {arguments.range[0], arguments.range[1]};

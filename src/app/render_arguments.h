@@ -20,6 +20,7 @@ struct RenderArguments {
   std::vector<double> range;  // two, or none
   int dpi = 0;
   bool transparent = false;
+  bool reported = false;
   std::string turntable, states;  // files of films; at most one is given
   VideoOptions video;
 

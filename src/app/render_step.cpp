@@ -1,6 +1,8 @@
 #include <map>
 
 #include "app/results_folder.h"
+#include "app/step_options.h"
+#include "app/step_record.h"
 #include "app/steps.h"
 #include "base/files.h"
 #include "viz/picture_set.h"
@@ -35,13 +37,21 @@ Status RenderStep(const fs::path& results, const RenderOptions& options, const f
   // What cannot be drawn must be known before anything in the results folder is touched.
   TELESTRAIN_RETURN_IF_ERROR(CheckRender(results, options));
   const auto before = ReportedPictures(results);
+  const bool is_file = !options.view.empty() && out.extension() == ".png";
+  const fs::path folder = is_file ? out.parent_path() : out.empty() ? results / "pictures" : out;
+  const WrittenFiles written(folder.empty() ? "." : folder);
   const Status rendered = RenderResults(results, options, console, out);
   // A report stays as long as the pictures in it are the ones beside it.
   if (before != ReportedPictures(results))
     TELESTRAIN_RETURN_IF_ERROR(RemoveOutputsFrom(results, Step::kReport));
   TELESTRAIN_RETURN_IF_ERROR(rendered);
   console.Say("render     pictures in " + (out.empty() ? results / "pictures" : out).string());
-  return {};
+  StepRecord record = SceneRecord("render", results);
+  record.options = OptionsJson(options);
+  record.options["out"] = RecordedPlace(results, out);
+  record.outputs = is_file ? std::vector{out.filename().string()} : written.Names();
+  record.outputs_folder = folder.empty() ? "." : folder;
+  return RecordStep(results, record);
 }
 
 }  // namespace telestrain

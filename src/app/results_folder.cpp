@@ -6,6 +6,7 @@
 #include <optional>
 #include <system_error>
 
+#include "app/program_record.h"
 #include "base/files.h"
 #include "base/json_file.h"
 #include "measurement/ruler_acceptance.h"
@@ -30,7 +31,7 @@ const std::vector<std::string>& OutputsOf(Step step) {
       {Step::kMeasure,
        {"strain.csv", "strain_components.csv", "strain.json", "strain_states.jsonl"}},
       {Step::kRender, {}},  // the standard pictures, whose number depends on the states
-      {Step::kReport, {"results.json", "report.pdf"}},
+      {Step::kReport, {"results.json", "dcc.xml", "report.pdf"}},
       {Step::kReview, {"review.html"}}};
   return kOutputs.at(step);
 }
@@ -53,7 +54,28 @@ bool IsHalfWritten(const std::string& name) {
   return whole.starts_with("strain") || StateOfSurface(whole).has_value();
 }
 
+// A signature dictionary says which bytes it covers, in clear.
+bool IsSignedPdf(const fs::path& path) {
+  if (path.extension() != ".pdf") return false;
+  const auto bytes = ReadFile(path);
+  return bytes && bytes->find("/ByteRange") != std::string::npos;
+}
+
+// What people signed is never taken away: it gets a name that says what became of it.
+Status SetAside(const fs::path& path) {
+  TELESTRAIN_ASSIGN_OR_RETURN(const std::string hash, Sha256HexOfFile(path));
+  const fs::path aside = path.parent_path() / (path.stem().string() + "_superseded_" +
+                                               hash.substr(0, 8) + path.extension().string());
+  std::error_code code;
+  fs::rename(path, aside, code);
+  if (!code) return {};
+  return OutputFailed(path.string() + ": is signed and cannot be renamed " +
+                      aside.filename().string() + ": " + code.message() +
+                      "; move it by hand or choose another --out folder");
+}
+
 Status Remove(const fs::path& path) {
+  if (IsSignedPdf(path)) return SetAside(path);
   std::error_code code;
   fs::remove(path, code);
   if (!code) return {};
@@ -115,17 +137,6 @@ std::map<std::string, std::string> HashesIn(const Json& files) {
   return hashes;
 }
 
-Json ProgramJson() {
-  Json libraries;
-  std::string list = TELESTRAIN_LIBRARIES;  // "name version|name version|…" from CMake
-  while (!list.empty()) {
-    const std::string item = list.substr(0, list.find('|'));
-    list.erase(0, item.size() + 1);
-    libraries[item.substr(0, item.find(' '))] = item.substr(item.find(' ') + 1);
-  }
-  return {{"name", "telestrain"}, {"version", TELESTRAIN_VERSION}, {"libraries", libraries}};
-}
-
 }  // namespace
 
 Status RemoveOutputsFrom(const fs::path& results, Step step) {
@@ -166,7 +177,7 @@ Result<std::string> InputsText(const Session& session, const fs::path& corners) 
     TELESTRAIN_ASSIGN_OR_RETURN(const std::string bytes, ReadFile(corners));
     corners_json = FileJson(corners.filename().string(), bytes);
   }
-  Json json{{"schema", kInputsSchema}, {"program", ProgramJson()}};
+  Json json{{"schema", kInputsSchema}, {"program", ProgramRecord()}};
   json.update(SessionRecord(session));
   json["corners"] = corners_json;
   json["files"] = files;

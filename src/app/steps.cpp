@@ -1,9 +1,11 @@
 #include "app/steps.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "app/results_folder.h"
+#include "app/step_record.h"
 #include "base/files.h"
 #include "base/json_file.h"
 #include "base/numbers.h"
@@ -11,11 +13,13 @@
 #include "measurement/ruler_acceptance.h"
 #include "report/template_list.h"
 #include "target/corner_import.h"
+#include "viz/picture_set.h"
 
 namespace telestrain {
 namespace {
 
 namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
 
 // One line for every limit that is not met or could not be decided.
 Status SayWhy(const fs::path& results, Console& console) {
@@ -56,6 +60,62 @@ Result<ReportScope> ScopeOf(const ReportOptions& options, const fs::path& agains
   return layout.scope;
 }
 
+std::vector<fs::path> IfGiven(const fs::path& path) {
+  return path.empty() ? std::vector<fs::path>{} : std::vector{path};
+}
+
+// Leaves the session's description and its place in the results folder, and records what was read.
+Status RecordOpening(const fs::path& folder, const fs::path& results, const fs::path& corners) {
+  TELESTRAIN_ASSIGN_OR_RETURN(const std::string description, ReadFile(folder / "session.toml"));
+  TELESTRAIN_RETURN_IF_ERROR(WriteFileAtomically(results / "session.toml", description));
+  std::error_code code;
+  const std::string place = fs::absolute(folder, code).lexically_normal().string();
+  TELESTRAIN_RETURN_IF_ERROR(WriteFileAtomically(results / "session.path", place + "\n"));
+  TELESTRAIN_ASSIGN_OR_RETURN(std::vector<std::string> files, SessionFiles(results));
+  return RecordStep(results, {"open",
+                              {{"corners", corners.string()}},
+                              std::move(files),
+                              {},
+                              IfGiven(corners),
+                              {"inputs.json", "session.toml"}});
+}
+
+StepRecord VerifyRecord() {
+  return {"verify",
+          Json::object(),
+          {"session.toml", "ruler.csv"},
+          {"detection.json", "calibration.json"},
+          {},
+          {"ruler.csv", "ruler.json"}};
+}
+
+// Recorded before the report is written, which carries the trail up to here.
+StepRecord ResultsRecord(const Json& options, const fs::path& against) {
+  std::error_code code;
+  const fs::path earlier = fs::is_directory(against, code) ? against / "results.json" : against;
+  return {"results",
+          options,
+          {},
+          {"inputs.json", "detection.json", "calibration.json", "residuals.csv", "mrcal.json",
+           "comparison.json", "ruler.json", "strain.json"},
+          {},
+          {"results.json", "dcc.xml"}};
+}
+
+// Every picture beside the report may stand in it.
+StepRecord ReportRecord(const fs::path& results, const Json& options) {
+  StepRecord record{"report", options,
+                    {},       {"results.json", "calibration.json", "residuals.csv", "dcc.xml"},
+                    {},       {"report.pdf"}};
+  std::error_code code;
+  for (fs::directory_iterator entry(results / "pictures", code), end; !code && entry != end;
+       entry.increment(code))
+    if (viz::IsStandardPicture(entry->path().filename().string()))
+      record.inputs.push_back("pictures/" + entry->path().filename().string());
+  std::sort(record.inputs.begin(), record.inputs.end());
+  return record;
+}
+
 }  // namespace
 
 Result<ArrayCalibration> LoadCalibration(const Session& session, const fs::path& results) {
@@ -85,9 +145,11 @@ Result<Session> OpenSession(const fs::path& folder, const fs::path& results,
                  "it elsewhere, or leave --corners out to use it as it is"};
   // Bad input must be known before anything in the results folder is touched.
   TELESTRAIN_ASSIGN_OR_RETURN(const std::string inputs, InputsText(session, corners));
+  TELESTRAIN_RETURN_IF_ERROR(CheckTrail(results));
   TELESTRAIN_RETURN_IF_ERROR(EnsureFolder(results));
   TELESTRAIN_RETURN_IF_ERROR(RemoveOutputsFrom(results, Step::kDetect));
   TELESTRAIN_RETURN_IF_ERROR(WriteFileAtomically(results / "inputs.json", inputs));
+  TELESTRAIN_RETURN_IF_ERROR(RecordOpening(folder, results, corners));
   return session;
 }
 
@@ -95,6 +157,7 @@ Result<Session> ReopenSession(const fs::path& folder, const fs::path& results) {
   TELESTRAIN_ASSIGN_OR_RETURN(const bool corners_are_given, CornersWereGiven(results));
   TELESTRAIN_ASSIGN_OR_RETURN(Session session, ReadSession(folder, corners_are_given));
   TELESTRAIN_RETURN_IF_ERROR(RequireSameInputs(session, results));
+  TELESTRAIN_RETURN_IF_ERROR(CheckTrail(results));
   return session;
 }
 
@@ -114,7 +177,12 @@ Status DetectStep(const Session& session, const fs::path& results, const fs::pat
   for (const BoardObservation& board : detection.boards)
     if (!board.rejected_because.empty())
       console.Note("  not used: " + board.image + " " + board.view + ": " + board.rejected_because);
-  return {};
+  return RecordStep(results, {"detect",
+                              {{"corners", corners.string()}},
+                              TargetFiles(session),
+                              {"inputs.json"},
+                              IfGiven(corners),
+                              {"corners.vnl", "corner_covariances.csv", "detection.json"}});
 }
 
 Status VerifyStep(const Session& session, const fs::path& results, Console& console) {
@@ -124,7 +192,7 @@ Status VerifyStep(const Session& session, const fs::path& results, Console& cons
   TELESTRAIN_RETURN_IF_ERROR(RemoveOutputsFrom(results, Step::kVerify));
   if (session.ruler_images.empty()) {
     console.Say("verify     the session has no ruler images");
-    return {};
+    return RecordStep(results, VerifyRecord());
   }
   const std::vector<RulerLength> lengths = MeasureRuler(session, array, crosses);
   TELESTRAIN_ASSIGN_OR_RETURN(const auto made_from,
@@ -146,7 +214,7 @@ Status VerifyStep(const Session& session, const fs::path& results, Console& cons
   for (const RulerLength& length : lengths)
     if (!length.rejected_because.empty())
       console.Note("  not used: " + length.image + ": " + length.rejected_because);
-  return {};
+  return RecordStep(results, VerifyRecord());
 }
 
 Result<int> ReportStep(const fs::path& results, const ReportChoices& choices, Console& console) {
@@ -162,7 +230,14 @@ Result<int> ReportStep(const fs::path& results, const ReportChoices& choices, Co
   TELESTRAIN_ASSIGN_OR_RETURN(const ReportScope scope, ScopeOf(options, choices.against));
   TELESTRAIN_RETURN_IF_ERROR(RemoveOutputsFrom(results, Step::kReport));
   TELESTRAIN_ASSIGN_OR_RETURN(const Outcome outcome, MakeResults(results, scope));
+  Json recorded{{"template", choices.layout},
+                {"templates", choices.templates.string()},
+                {"against", choices.against.string()}};
+  TELESTRAIN_RETURN_IF_ERROR(RecordStep(results, ResultsRecord(recorded, choices.against)));
   TELESTRAIN_RETURN_IF_ERROR(WriteReport(results, options));
+  recorded["language"] = choices.language;
+  recorded["archive-level"] = choices.level == ArchiveLevel::k1b ? "1b" : "3a";
+  TELESTRAIN_RETURN_IF_ERROR(RecordStep(results, ReportRecord(results, recorded)));
   console.Say("report     " +
               fs::absolute(results / "report.pdf", code).lexically_normal().string());
   console.Say("verdict    " + outcome.verdict);

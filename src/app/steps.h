@@ -19,7 +19,10 @@ namespace telestrain {
 // in the results folder, writes its own files there and says what it found. Before it writes, it
 // removes its own and all later steps' files, so that a results folder never mixes two runs.
 
-// Reads the session, prepares the results folder and writes inputs.json with every file's hash.
+// Every step that writes results adds its entry to the folder's audit.jsonl, at its end.
+
+// Reads the session, prepares the results folder and writes inputs.json with every file's hash,
+// session.toml as it was read, and session.path: where the session lies.
 // With `corners` (a corners.vnl) the calibration images need not be there.
 Result<Session> OpenSession(const std::filesystem::path& folder,
                             const std::filesystem::path& results,
@@ -44,6 +47,7 @@ struct EarlierCalibration {
 
 // How `calibrate` works beside its defaults.
 struct CalibrateChoices {
+  CalibrateArguments arguments;  // as they were given
   CalibrationOptions options;
   // An earlier calibration; writes comparison.json. Read before the results folder is opened,
   // where it may lie.
@@ -60,6 +64,7 @@ Status VerifyStep(const Session& session, const std::filesystem::path& results, 
 
 // How `measure` works beside its defaults.
 struct MeasureChoices {
+  MeasureArguments arguments;      // as they were given
   int subset_px = 0, step_px = 0;  // 0: as DefaultPipeOptions
   std::optional<WatchChoices> watch;
 };

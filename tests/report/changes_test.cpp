@@ -117,7 +117,7 @@ TEST_F(Changes, ComparisonOfTheCalibrationsIsUsedWhenItIsOfThisEarlierOne) {
   EXPECT_EQ(TextAt(row, "/5"), "changed by more than U");
   // Of another one: compared here.
   const Json other = table_with(std::string(64, 'f'));
-  EXPECT_TRUE(RowOf(other, "shift of the field of A1 along u").is_null());
+  EXPECT_EQ(ListAt(other, "/rows").size(), 13u);  // the magnification, and three of each view
   EXPECT_NEAR(*NumberAt(RowOf(other, "magnification"), "/1/value"), 0.03, 1e-9);
 }
 

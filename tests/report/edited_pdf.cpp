@@ -25,4 +25,8 @@ void AttachToPdf(QPDF& pdf, const std::string& name, const std::string& bytes) {
   QPDFEmbeddedFileDocumentHelper(pdf).replaceEmbeddedFile(name, file);
 }
 
+void DetachFromPdf(QPDF& pdf, const std::string& name) {
+  QPDFEmbeddedFileDocumentHelper(pdf).removeEmbeddedFile(name);
+}
+
 }  // namespace telestrain

@@ -12,4 +12,6 @@ std::string EditedPdf(const std::string& bytes, const std::function<void(QPDF&)>
 // Adds the attachment, or gives the one of this name other bytes.
 void AttachToPdf(QPDF& pdf, const std::string& name, const std::string& bytes);
 
+void DetachFromPdf(QPDF& pdf, const std::string& name);
+
 }  // namespace telestrain

@@ -3,6 +3,7 @@
 #include <array>
 #include <cctype>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 
@@ -25,6 +26,18 @@ std::string WithoutSpace(const std::string& text) {
   for (const char c : text)
     if (!std::isspace(static_cast<unsigned char>(c))) rest.push_back(c);
   return rest;
+}
+
+std::string PreflightCommand() {
+  std::string path;
+  for (const char* jar : {"preflight", "pdfbox2", "fontbox2", "xmpbox", "commons-logging",
+                          "commons-io", "javax.activation", "jaxb-api"}) {
+    const std::string file = "/usr/share/java/" + std::string(jar) + ".jar";
+    if (!std::filesystem::exists(file)) return "";
+    path += (path.empty() ? "" : ":") + file;
+  }
+  if (!RunTool("java -version").ok) return "";
+  return "java -cp " + path + " org.apache.pdfbox.preflight.Validator_A1b";
 }
 
 std::string FileBytes(const std::string& path) {

@@ -18,6 +18,10 @@ ToolRun RunTool(const std::string& command_line);
 // `text` without white space, so that line breaks of the layout do not count.
 std::string WithoutSpace(const std::string& text);
 
+// The command line of PDFBox's preflight for PDF/A-1b, wanting a file; empty without java or one of
+// its jars.
+std::string PreflightCommand();
+
 // Reads `path` to the end.
 std::string FileBytes(const std::string& path);
 

@@ -1,0 +1,121 @@
+#include "report/audit/report_check.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+
+#include "base/files.h"
+#include "base/numbers.h"
+#include "report/audit/trail_files.h"
+#include "report/reading/pdf_contents.h"
+
+namespace telestrain {
+namespace {
+
+constexpr const char* kTrail = "audit.jsonl";
+
+// Files of the results folder that a report carries when they exist.
+constexpr std::array kCarried = {"results.json", "calibration.json", "dcc.xml", "session.toml"};
+
+// What the pages say, without white space, so that a hash may be broken over lines.
+std::string PrintedText(const PdfContents& contents) {
+  std::string text;
+  for (const std::string& page : contents.page_texts)
+    std::copy_if(page.begin(), page.end(), std::back_inserter(text),
+                 [](unsigned char c) { return std::isspace(c) == 0; });
+  return text;
+}
+
+bool Prints(const std::string& printed, const std::string& hash) {
+  return printed.find(hash) != std::string::npos;
+}
+
+Result<std::vector<AuditEntry>> TrailInside(const std::string& name, const PdfContents& contents,
+                                            const std::string& printed) {
+  const auto attached = contents.attachments.find(kTrail);
+  if (attached == contents.attachments.end()) return BadInput(name + " carries no audit trail");
+  TELESTRAIN_ASSIGN_OR_RETURN(auto entries,
+                              ReadAuditTrail("the audit trail in " + name, attached->second));
+  if (entries.empty()) return BadInput("the audit trail in " + name + " is empty");
+  if (!Prints(printed, entries.back().hash))
+    return BadInput("the audit trail in " + name +
+                    " does not end with the line whose hash is printed on its pages: it was cut "
+                    "short or continued");
+  TELESTRAIN_RETURN_IF_ERROR(CheckStory(entries));
+  return entries;
+}
+
+Status CheckAttachments(const std::string& name, const PdfContents& contents,
+                        const std::vector<AuditEntry>& entries, const std::string& printed) {
+  for (const auto& [file, bytes] : contents.attachments)
+    if (!Prints(printed, Sha256Hex(bytes)))
+      return BadInput("attachment " + file + " of " + name +
+                      " is not the one whose SHA-256 is printed on its pages");
+  const auto made = LatestOutputs(entries, entries.size());
+  for (const char* file : kCarried) {
+    const auto wanted = made.find(file);
+    const auto attached = contents.attachments.find(file);
+    if (wanted == made.end() && attached == contents.attachments.end()) continue;
+    const std::string what = std::string("attachment ") + file + " of " + name + " ";
+    if (attached == contents.attachments.end())
+      return BadInput(what + "is missing, which " + LineName(entries, wanted->second.entry) +
+                      " of its audit trail made");
+    if (wanted == made.end()) return BadInput(what + "is not told of in its audit trail");
+    if (Sha256Hex(attached->second) != wanted->second.sha256)
+      return BadInput(what + "is not the one that " + LineName(entries, wanted->second.entry) +
+                      " of its audit trail made");
+  }
+  return {};
+}
+
+// The roles that the trail says have signed the latest report.
+std::vector<std::pair<std::size_t, std::string>> RecordedRoles(
+    const std::vector<AuditEntry>& entries) {
+  std::vector<std::pair<std::size_t, std::string>> roles;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    if (entries[i].type == "report") roles.clear();
+    if (entries[i].type == "sign" && TextAt(entries[i].body, "/file") == "report.pdf")
+      roles.emplace_back(i, TextAt(entries[i].body, "/role"));
+  }
+  return roles;
+}
+
+Result<std::string> Signatures(const std::string& name, const std::string& bytes,
+                               const TrustOptions& trust, const FolderTrail* folder) {
+  TELESTRAIN_ASSIGN_OR_RETURN(const SignatureCheck check, CheckSignatures(bytes, trust));
+  if (!check.failure.empty()) return BadInput(check.failure);
+  if (folder)
+    for (const auto& [index, role] : RecordedRoles(folder->entries))
+      if (std::none_of(check.signatures.begin(), check.signatures.end(),
+                       [&](const PdfSignature& signature) { return signature.role == role; }))
+        return BadInput("the signature of the " + role + " is missing in " + name + ", which " +
+                        LineName(folder->entries, index) + " of the audit trail tells of");
+  if (check.signatures.empty()) return std::string("not signed");
+  std::string text;
+  for (const PdfSignature& signature : check.signatures)
+    text += (text.empty() ? "signed by " : ", ") + signature.role + " " + signature.signer;
+  return text;
+}
+
+Status CheckAgainstFolder(const std::string& name, const PdfContents& contents,
+                          const FolderTrail& folder) {
+  if (folder.text.starts_with(contents.attachments.at(kTrail))) return {};
+  return BadInput("the audit trail in " + name +
+                  " is not the beginning of the one in the results folder: lines of one of them "
+                  "were taken out or exchanged");
+}
+
+}  // namespace
+
+Result<std::string> CheckReport(const std::string& name, const std::string& bytes,
+                                const TrustOptions& trust, const FolderTrail* folder) {
+  TELESTRAIN_ASSIGN_OR_RETURN(const PdfContents contents, ReadPdfContents(name, bytes));
+  const std::string printed = PrintedText(contents);
+  TELESTRAIN_ASSIGN_OR_RETURN(const auto entries, TrailInside(name, contents, printed));
+  TELESTRAIN_RETURN_IF_ERROR(CheckAttachments(name, contents, entries, printed));
+  if (folder) TELESTRAIN_RETURN_IF_ERROR(CheckAgainstFolder(name, contents, *folder));
+  TELESTRAIN_ASSIGN_OR_RETURN(const std::string signatures, Signatures(name, bytes, trust, folder));
+  return CountText(contents.attachments.size(), "attachment") + " as printed, " + signatures;
+}
+
+}  // namespace telestrain

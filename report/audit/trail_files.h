@@ -1,0 +1,41 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "report/audit/audit_trail.h"
+
+namespace telestrain {
+
+// What an audit trail says about files, and whether that is so. Failures (kBadInput) are one
+// sentence that names the file and the line of the trail.
+
+// A file that an entry made in the results folder.
+struct TrailFile {
+  std::string sha256;
+  std::size_t bytes = 0;
+  std::size_t entry = 0;  // its index: the latest that made the file
+};
+// By the path inside the results folder; of the first `count` entries.
+std::map<std::string, TrailFile> LatestOutputs(const std::vector<AuditEntry>& entries,
+                                               std::size_t count);
+
+// "line 5 (verify)".
+std::string LineName(const std::vector<AuditEntry>& entries, std::size_t index);
+
+// Every entry read the files that entries before it had made: none was exchanged between two steps.
+Status CheckStory(const std::vector<AuditEntry>& entries);
+
+// The files in the folder are as the latest entries made them; one may be missing only where a
+// later step took it away. A report.pdf that was signed since begins as it was made. The value is
+// how many there are.
+Result<std::size_t> CheckOutputs(const std::vector<AuditEntry>& entries,
+                                 const std::filesystem::path& results);
+
+// The session's files are as the latest "open" read them. The value is how many there are.
+Result<std::size_t> CheckInputs(const std::vector<AuditEntry>& entries,
+                                const std::filesystem::path& session);
+
+}  // namespace telestrain

@@ -1,0 +1,77 @@
+#include "report/report_attachments.h"
+
+#include "base/files.h"
+#include "report/audit/audit_trail.h"
+
+namespace telestrain {
+namespace {
+
+constexpr const char* kTrail = "audit.jsonl";
+
+// In the order of the printed table.
+std::vector<PdfAttachment> KnownFiles() {
+  return {{"results.json", "application/json", "Every number of the report", "Data", ""},
+          {"calibration.json", "application/json", "Calibration of the instrument", "Data", ""},
+          {"dcc.xml", "application/xml", "Digital calibration certificate", "Alternative", ""},
+          {"session.toml", "application/toml", "What was asked and certified", "Source", ""},
+          {kTrail, "application/x-ndjson", "Audit trail", "Supplement", ""}};
+}
+
+// Hash and number of the entries of a trail; an empty hash without one.
+struct TrailHead {
+  std::string hash;
+  std::size_t entries = 0;
+};
+
+TrailHead HeadOf(const std::string& trail) {
+  TrailHead head;
+  for (std::size_t at = 0; at < trail.size();) {
+    const std::size_t end = std::min(trail.find('\n', at), trail.size());
+    const Json line = Json::parse(trail.substr(at, end - at), nullptr, false);
+    const std::string hash = TextAt(line, "/hash");
+    if (!hash.empty()) head = {hash, head.entries + 1};
+    at = end + 1;
+  }
+  return head;
+}
+
+}  // namespace
+
+Result<std::vector<PdfAttachment>> ReportAttachments(const std::filesystem::path& results) {
+  std::vector<PdfAttachment> attachments;
+  for (PdfAttachment& attachment : KnownFiles()) {
+    std::error_code code;
+    if (!std::filesystem::exists(results / attachment.name, code)) continue;
+    TELESTRAIN_ASSIGN_OR_RETURN(attachment.bytes, ReadFile(results / attachment.name));
+    // What was done later, such as writing this very report, is not of these results.
+    if (attachment.name == kTrail) attachment.bytes = TrailOfResults(attachment.bytes);
+    attachments.push_back(std::move(attachment));
+  }
+  return attachments;
+}
+
+Json AttachmentsTable(const std::vector<PdfAttachment>& attachments) {
+  Json table = {{"id", "attachments"}, {"title", "Files attached to this report"}};
+  table["columns"] = {{{"name", "File"}, {"unit", ""}},
+                      {{"name", "Content"}, {"unit", ""}},
+                      {{"name", "Size"}, {"unit", "bytes"}},
+                      {{"name", "SHA-256"}, {"unit", ""}}};
+  table["rows"] = Json::array();
+  for (const PdfAttachment& attachment : attachments) {
+    const std::size_t size = attachment.bytes.size();
+    table["rows"].push_back({attachment.name,
+                             attachment.description,
+                             {{"value", size}, {"printed", std::to_string(size)}},
+                             Sha256Hex(attachment.bytes)});
+    if (attachment.name != kTrail) continue;
+    const TrailHead head = HeadOf(attachment.bytes);
+    if (head.hash.empty()) continue;
+    table["rows"].push_back({"audit head",
+                             "Hash of the last of the entries, which are so many",
+                             {{"value", head.entries}, {"printed", std::to_string(head.entries)}},
+                             head.hash});
+  }
+  return table;
+}
+
+}  // namespace telestrain

@@ -1,0 +1,48 @@
+#include "report/signature/opened_pdf.h"
+
+#include <exception>
+#include <qpdf/Buffer.hh>
+
+namespace telestrain {
+
+OpenedPdf OpenPdf(const std::string& bytes) {
+  OpenedPdf opened{std::make_unique<QPDF>(), ""};
+  opened.pdf->setSuppressWarnings(true);
+  opened.pdf->setAttemptRecovery(false);
+  try {
+    opened.pdf->processMemoryFile("report", bytes.data(), bytes.size());
+    // Every object once, so that damage shows now.
+    opened.pdf->getAllObjects();
+    if (opened.pdf->isEncrypted()) opened.failure = "the PDF is encrypted";
+  } catch (const std::exception& error) {
+    opened.failure = std::string("the PDF is damaged: ") + error.what();
+  }
+  if (opened.failure.empty())
+    if (const auto warnings = opened.pdf->getWarnings(); !warnings.empty())
+      opened.failure = std::string("the PDF is damaged: ") + warnings.front().what();
+  if (!opened.failure.empty()) opened.pdf.reset();
+  return opened;
+}
+
+std::string ContentOf(QPDFObjectHandle object) {
+  if (!object.isStream()) return object.unparseResolved();
+  const auto data = object.getRawStreamData();
+  return object.getDict().unparse() +
+         std::string(reinterpret_cast<const char*>(data->getBuffer()), data->getSize());
+}
+
+std::vector<SignatureField> SignatureFieldsOf(QPDF& pdf) {
+  std::vector<SignatureField> fields;
+  QPDFObjectHandle form = pdf.getRoot().getKey("/AcroForm");
+  QPDFObjectHandle list = form.isDictionary() ? form.getKey("/Fields") : form;
+  if (!list.isArray()) return fields;
+  for (QPDFObjectHandle field : list.getArrayAsVector()) {
+    if (!field.isDictionary()) continue;
+    QPDFObjectHandle name = field.getKey("/T");
+    if (field.hasKey("/V") || field.getKey("/FT").isNameAndEquals("/Sig"))
+      fields.push_back({name.isString() ? name.getUTF8Value() : "", field});
+  }
+  return fields;
+}
+
+}  // namespace telestrain

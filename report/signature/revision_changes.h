@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+
+class QPDF;
+
+namespace telestrain {
+
+// One signature's update: whose it is and the number of the object that holds it.
+struct SignedUpdate {
+  std::string role;
+  int object = 0;
+};
+
+// Compares every object of a revision with the next one, which a signature added. Only these may
+// differ: the value and picture of the role's field, the form's flags, one invisible field appended
+// to the form and to a page's annotations, the catalog's /DSS, and its /Perms by the instrument's
+// seal. Returns what else was changed, as "page 3's content (object 12) was changed", or nothing.
+std::string ForbiddenChange(QPDF& before, QPDF& after, const SignedUpdate& update);
+
+}  // namespace telestrain

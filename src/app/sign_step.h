@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+
+#include "base/console.h"
+#include "base/result.h"
+
+namespace telestrain {
+
+// The command line of `telestrain sign`.
+struct SignArguments {
+  std::string report, role;
+  std::string p12, key, certificate, chain, password_file;
+  std::string name, reason, place, time, time_stamp_url, out;
+};
+
+// Signs, replaces the file as a whole and, when it lies in a results folder, adds a "sign" entry to
+// its audit trail. Nothing is written when anything fails before.
+Result<int> SignStep(const SignArguments& arguments, Console& console);
+
+}  // namespace telestrain

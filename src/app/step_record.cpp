@@ -1,0 +1,183 @@
+#include "app/step_record.h"
+
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <array>
+#include <ctime>
+
+#include "app/program_record.h"
+#include "base/files.h"
+#include "base/json_file.h"
+#include "base/numbers.h"
+#include "report/audit/step_order.h"
+
+namespace telestrain {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kTrail = "audit.jsonl";
+
+Json FileRecord(const char* where, const std::string& path, const std::string& bytes) {
+  return {{"of", where}, {"path", path}, {"bytes", bytes.size()}, {"sha256", Sha256Hex(bytes)}};
+}
+
+// The path inside the results folder; empty when it lies outside.
+std::string InsideResults(const fs::path& results, const fs::path& path) {
+  std::error_code code;
+  const std::string inside =
+      fs::weakly_canonical(path, code).lexically_relative(fs::weakly_canonical(results, code));
+  return inside.empty() || inside.starts_with("..") ? "" : inside;
+}
+
+Status AddFiles(const StepRecord& step, const fs::path& results, const Json& inputs_json,
+                Json& inputs) {
+  std::map<std::string, Json> known;
+  for (const Json& file : inputs_json.at("files")) known[file.at("path")] = file;
+  for (const std::string& name : step.session_inputs)
+    if (const auto file = known.find(name); file != known.end()) {
+      inputs.push_back({{"of", "session"}});
+      inputs.back().update(file->second);
+    }
+  std::error_code code;
+  for (const std::string& name : step.inputs) {
+    if (!fs::exists(results / name, code)) continue;
+    TELESTRAIN_ASSIGN_OR_RETURN(const std::string bytes, ReadFile(results / name));
+    inputs.push_back(FileRecord("results", name, bytes));
+  }
+  for (const fs::path& path : step.inputs_elsewhere) {
+    TELESTRAIN_ASSIGN_OR_RETURN(const std::string bytes, ReadFile(path));
+    inputs.push_back(FileRecord("elsewhere", path.filename().string(), bytes));
+  }
+  return {};
+}
+
+Result<Json> OutputsOf(const StepRecord& step, const fs::path& results) {
+  const fs::path folder = step.outputs_folder.empty() ? results : step.outputs_folder;
+  Json outputs = Json::array();
+  std::error_code code;
+  for (const std::string& name : step.outputs) {
+    if (!fs::exists(folder / name, code)) continue;
+    TELESTRAIN_ASSIGN_OR_RETURN(const std::string bytes, ReadFile(folder / name));
+    const std::string inside = InsideResults(results, folder / name);
+    outputs.push_back(inside.empty() ? FileRecord("elsewhere", name, bytes)
+                                     : FileRecord("results", inside, bytes));
+  }
+  return outputs;
+}
+
+// The time that the session or its surroundings declare; never the clock's.
+std::string DeclaredTime(const Json& inputs_json) {
+  const std::string date = TextAt(inputs_json, "/document/date");
+  const char* epoch = std::getenv("SOURCE_DATE_EPOCH");
+  const auto seconds = epoch ? ParseDouble(epoch) : std::nullopt;
+  if (!date.empty() || !seconds || *seconds < 0 || *seconds > 2.5e11) return date;
+  const auto time = static_cast<std::time_t>(*seconds);
+  std::tm parts{};
+  ::gmtime_r(&time, &parts);
+  std::array<char, 64> text{};
+  return {text.data(), std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &parts)};
+}
+
+Result<AuditTrail> OpenTrail(const fs::path& results) {
+  auto trail = AuditTrail::Open(results / kTrail);
+  if (trail) return trail;
+  return BadInput(trail.error().message +
+                  "; what was done in this folder can no longer be told: keep it and use another "
+                  "--out folder");
+}
+
+}  // namespace
+
+Status CheckTrail(const fs::path& results) {
+  const auto trail = OpenTrail(results);
+  return trail ? Status() : Status(trail.error());
+}
+
+Status RecordStep(const fs::path& results, const StepRecord& step) {
+  TELESTRAIN_ASSIGN_OR_RETURN(
+      const Json inputs_json,
+      ReadJson(results / "inputs.json", "telestrain.inputs/1", "telestrain detect"));
+  TELESTRAIN_ASSIGN_OR_RETURN(AuditTrail trail, OpenTrail(results));
+  Json inputs = Json::array();
+  TELESTRAIN_RETURN_IF_ERROR(AddFiles(step, results, inputs_json, inputs));
+  TELESTRAIN_ASSIGN_OR_RETURN(Json outputs, OutputsOf(step, results));
+  Json body{{"program", ProgramRecord()},
+            {"options", step.options},
+            {"inputs", std::move(inputs)},
+            {"outputs", std::move(outputs)}};
+  if (step.type == "open") body["session"] = TextAt(inputs_json, "/title");
+  if (IsRecorded(trail, step.type, body)) return {};
+  TELESTRAIN_RETURN_IF_ERROR(trail.Append(step.type, body, DeclaredTime(inputs_json)));
+  return trail.Sync();
+}
+
+Result<std::vector<std::string>> SessionFiles(const fs::path& results) {
+  TELESTRAIN_ASSIGN_OR_RETURN(
+      const Json inputs_json,
+      ReadJson(results / "inputs.json", "telestrain.inputs/1", "telestrain detect"));
+  std::vector<std::string> names;
+  for (const Json& file : ListAt(inputs_json, "/files")) names.push_back(TextAt(file, "/path"));
+  return names;
+}
+
+std::vector<std::string> TargetFiles(const Session& session) {
+  std::vector<std::string> names{"session.toml", "calibration.csv", "ruler.csv"};
+  if (!session.corners_are_given)
+    for (const CalibrationImage& image : session.calibration_images) names.push_back(image.image);
+  names.insert(names.end(), session.ruler_images.begin(), session.ruler_images.end());
+  return names;
+}
+
+std::vector<std::string> PipeFiles(const Session& session) {
+  std::vector<std::string> names{"session.toml", "pipe.csv"};
+  for (const PipeState& state : session.pipe_states) names.push_back(state.image);
+  return names;
+}
+
+StepRecord SceneRecord(const std::string& type, const fs::path& results) {
+  StepRecord record;
+  record.type = type;
+  record.inputs = {"inputs.json", "calibration.json", "residuals.csv", "ruler.json", "strain.json"};
+  std::vector<std::string> surfaces;
+  std::error_code code;
+  for (fs::directory_iterator entry(results, code), end; !code && entry != end;
+       entry.increment(code))
+    if (entry->path().extension() == ".vtp") surfaces.push_back(entry->path().filename().string());
+  std::sort(surfaces.begin(), surfaces.end());
+  record.inputs.insert(record.inputs.end(), surfaces.begin(), surfaces.end());
+  return record;
+}
+
+std::string RecordedPlace(const fs::path& results, const fs::path& out) {
+  if (out.empty()) return "";
+  const std::string inside = InsideResults(results, out);
+  const fs::path name = out.has_filename() ? out.filename() : out.parent_path().filename();
+  return inside.empty() ? name.string() : "RESULTS/" + inside;
+}
+
+WrittenFiles::WrittenFiles(fs::path folder) : folder_(std::move(folder)), before_(Stamps()) {}
+
+std::map<std::string, WrittenFiles::Stamp> WrittenFiles::Stamps() const {
+  std::map<std::string, Stamp> stamps;
+  std::error_code code;
+  for (fs::directory_iterator entry(folder_, code), end; !code && entry != end;
+       entry.increment(code)) {
+    struct stat file {};
+    if (::stat(entry->path().c_str(), &file) != 0 || !S_ISREG(file.st_mode)) continue;
+    stamps[entry->path().filename().string()] = {
+        file.st_ino, file.st_mtim.tv_sec * 1000000000LL + file.st_mtim.tv_nsec};
+  }
+  return stamps;
+}
+
+std::vector<std::string> WrittenFiles::Names() const {
+  std::vector<std::string> names;
+  for (const auto& [name, stamp] : Stamps())
+    if (const auto before = before_.find(name); before == before_.end() || before->second != stamp)
+      names.push_back(name);
+  return names;
+}
+
+}  // namespace telestrain

@@ -1,0 +1,335 @@
+// What is checked of a results folder and of a report by its audit trail.
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "base/files.h"
+#include "edited_pdf.h"
+#include "report/audit/file_difference.h"
+#include "report/audit/report_check.h"
+#include "report/audit/step_order.h"
+#include "report/audit/tell_audit.h"
+#include "report/audit/trail_files.h"
+#include "report/audit/verify_audit.h"
+#include "report/pdf_document.h"
+#include "unit/base/scratch_folder.h"
+
+namespace telestrain {
+namespace {
+
+namespace fs = std::filesystem;
+
+Json FileOf(const char* where, const std::string& path, const std::string& bytes) {
+  return {{"of", where}, {"path", path}, {"bytes", bytes.size()}, {"sha256", Sha256Hex(bytes)}};
+}
+
+// A results folder with a trail of three steps and a report that carries the first two. The files
+// are short texts: nothing here depends on what they hold.
+class AuditCheckTest : public ::testing::Test {
+ protected:
+  AuditCheckTest() {
+    fs::create_directories(Results());
+    fs::create_directories(Session());
+    Write(Session() / "a.png", "picture");
+    Write(Results() / "session.toml", "toml");
+    Write(Results() / "session.path", Session().string() + "\n");
+    Write(Results() / "results.json", "{\"verdict\": \"pass\"}");
+    Append("open", {FileOf("session", "a.png", "picture")},
+           {FileOf("results", "session.toml", "toml")});
+    Append("results", {FileOf("results", "session.toml", "toml")},
+           {FileOf("results", "results.json", "{\"verdict\": \"pass\"}")});
+    report_ = MakeReport();
+    Write(Results() / "report.pdf", report_);
+    Append("report", {FileOf("results", "results.json", "{\"verdict\": \"pass\"}")},
+           {FileOf("results", "report.pdf", report_)});
+  }
+
+  fs::path Results() const { return scratch_.path() / "results"; }
+  fs::path Session() const { return scratch_.path() / "session"; }
+  static void Write(const fs::path& path, const std::string& bytes) {
+    ASSERT_TRUE(WriteFileAtomically(path, bytes).ok());
+  }
+  void Append(const std::string& type, const std::vector<Json>& inputs,
+              const std::vector<Json>& outputs) const {
+    auto trail = AuditTrail::Open(Results() / "audit.jsonl");
+    ASSERT_TRUE(trail.ok()) << trail.error().message;
+    ASSERT_TRUE(trail->Append(type, {{"inputs", inputs}, {"outputs", outputs}}, "").ok());
+    ASSERT_TRUE(trail->Sync().ok());
+  }
+  std::string Trail() const { return *ReadFile(Results() / "audit.jsonl"); }
+
+  // Prints the hashes of what it carries, each broken over two lines, and the head.
+  std::string MakeReport() const {
+    auto pdf = PdfDocument::Create();
+    (*pdf)->AddPage();
+    double y_pt = 700;
+    const auto print = [&](const std::string& name, const std::string& hash) {
+      (*pdf)->DrawText({}, {50, y_pt}, name);
+      (*pdf)->DrawText({}, {150, y_pt}, hash.substr(0, 40));
+      (*pdf)->DrawText({}, {150, y_pt - 10}, hash.substr(40));
+      y_pt -= 30;
+    };
+    const std::string trail = TrailOfResults(Trail());
+    print("audit trail ends with", ReadAuditTrail("", trail)->back().hash);
+    for (const char* name : {"session.toml", "results.json"})
+      print(name, Sha256Hex(*ReadFile(Results() / name)));
+    print("audit.jsonl", Sha256Hex(trail));
+    return EditedPdf(*(*pdf)->Save({}, "seed"), [&](QPDF& document) {
+      for (const char* name : {"session.toml", "results.json"})
+        AttachToPdf(document, name, *ReadFile(Results() / name));
+      AttachToPdf(document, "audit.jsonl", trail);
+    });
+  }
+
+  std::string Verified(const fs::path& subject) const {
+    const auto answer = VerifyAudit({subject, {}, {}, {}, {}});
+    if (!answer.ok()) return "error: " + answer.error().message;
+    EXPECT_TRUE(answer->line.starts_with(answer->passed ? "PASS: " : "FAIL: ")) << answer->line;
+    return answer->line;
+  }
+  std::string VerifiedFolder() const { return Verified(Results()); }
+  // What is said of the report alone after a change of the PDF.
+  std::string VerifiedReport(const std::function<void(QPDF&)>& change) const {
+    Write(scratch_.path() / "copy.pdf", EditedPdf(report_, change));
+    return Verified(scratch_.path() / "copy.pdf");
+  }
+  void EditTrail(const std::function<void(std::string&)>& edit) const {
+    std::string text = Trail();
+    edit(text);
+    Write(Results() / "audit.jsonl", text);
+  }
+
+  ScratchFolder scratch_{"telestrain_audit_check_"};
+  std::string report_;
+};
+
+TEST_F(AuditCheckTest, AnUntouchedFolderPasses) {
+  EXPECT_EQ(VerifiedFolder(),
+            "PASS: 3 steps chained, 3 files unchanged, 1 input unchanged; report.pdf: 3 "
+            "attachments as printed, not signed");
+}
+
+TEST_F(AuditCheckTest, AReportAlonePassesForWhatItHolds) {
+  EXPECT_EQ(VerifiedReport([](QPDF&) {}), "PASS: 3 attachments as printed, not signed");
+}
+
+TEST_F(AuditCheckTest, AChangedFileIsNamedWithTheStepThatMadeIt) {
+  Write(Results() / "results.json", "{\"verdict\": \"fail\"}");
+  EXPECT_EQ(VerifiedFolder(),
+            "FAIL: results.json was changed after line 2 (results) of the audit trail made it");
+}
+
+TEST_F(AuditCheckTest, AMissingFileIsNamed) {
+  fs::remove(Results() / "session.toml");
+  EXPECT_EQ(VerifiedFolder(),
+            "FAIL: session.toml is missing, which line 1 (open) of the audit trail made");
+}
+
+TEST_F(AuditCheckTest, AChangedInputIsNamed) {
+  Write(Session() / "a.png", "another");
+  EXPECT_EQ(VerifiedFolder(),
+            "FAIL: input a.png was changed after line 1 (open) of the audit trail read it");
+  fs::remove(Session() / "a.png");
+  EXPECT_EQ(VerifiedFolder(), "FAIL: input a.png is missing in " + Session().string());
+}
+
+TEST_F(AuditCheckTest, ASessionThatIsGoneIsSaid) {
+  fs::remove_all(Session());
+  EXPECT_EQ(VerifiedFolder(),
+            "PASS: 3 steps chained, 3 files unchanged, inputs not checked: " + Session().string() +
+                " is not there; report.pdf: 3 attachments as printed, not "
+                "signed");
+}
+
+TEST_F(AuditCheckTest, AFileExchangedBetweenTwoStepsIsSeen) {
+  Append("review", {FileOf("results", "results.json", "other")}, {});
+  EXPECT_EQ(VerifiedFolder(),
+            "FAIL: line 4 (review) of the audit trail read another results.json than line 2 "
+            "(results) made");
+  EditTrail([](std::string& text) { text.resize(text.rfind('\n', text.size() - 2) + 1); });
+  Append("review", {FileOf("results", "strain.json", "x")}, {});
+  EXPECT_EQ(VerifiedFolder(),
+            "FAIL: line 4 (review) of the audit trail read strain.json, which no line before it "
+            "made");
+}
+
+TEST_F(AuditCheckTest, FilesThatALaterStepTookAwayMayBeMissing) {
+  Append("open", {}, {FileOf("results", "session.toml", "toml")});
+  fs::remove(Results() / "results.json");
+  fs::remove(Results() / "report.pdf");
+  EXPECT_EQ(VerifiedFolder(),
+            "PASS: 4 steps chained, 1 file unchanged, 0 inputs unchanged; no report.pdf");
+}
+
+TEST_F(AuditCheckTest, TheTrailMustBeThereAndWhole) {
+  EditTrail([](std::string& text) { text.erase(0, text.find('\n') + 1); });
+  EXPECT_EQ(VerifiedFolder(), "FAIL: " + (Results() / "audit.jsonl").string() +
+                                  ": line 1 has number 1 where 0 follows: a line was taken out, "
+                                  "put in or moved");
+  fs::remove(Results() / "audit.jsonl");
+  EXPECT_EQ(VerifiedFolder(), "FAIL: " + (Results() / "audit.jsonl").string() +
+                                  " is missing: nothing tells what was done");
+}
+
+TEST_F(AuditCheckTest, ATruncatedTrailOfTheFolderDoesNotFitTheReport) {
+  EditTrail([](std::string& text) { text.resize(text.find('\n') + 1); });
+  EXPECT_EQ(VerifiedFolder(),
+            "FAIL: the audit trail in report.pdf is not the beginning of the one in the results "
+            "folder: lines of one of them were taken out or exchanged");
+}
+
+TEST_F(AuditCheckTest, AnExchangedAttachmentIsNamed) {
+  EXPECT_EQ(VerifiedReport([](QPDF& pdf) { AttachToPdf(pdf, "results.json", "{}"); }),
+            "FAIL: attachment results.json of copy.pdf is not the one whose SHA-256 is printed on "
+            "its pages");
+}
+
+TEST_F(AuditCheckTest, AnAttachmentTakenOutIsNamed) {
+  EXPECT_EQ(VerifiedReport([](QPDF& pdf) { DetachFromPdf(pdf, "results.json"); }),
+            "FAIL: attachment results.json of copy.pdf is missing, which line 2 (results) of its "
+            "audit trail made");
+  EXPECT_EQ(VerifiedReport([](QPDF& pdf) { DetachFromPdf(pdf, "audit.jsonl"); }),
+            "FAIL: copy.pdf carries no audit trail");
+}
+
+TEST_F(AuditCheckTest, ATruncatedTrailInTheReportDoesNotEndAsPrinted) {
+  const std::string trail = Trail();
+  EXPECT_EQ(VerifiedReport([&](QPDF& pdf) {
+              AttachToPdf(pdf, "audit.jsonl", trail.substr(0, trail.find('\n') + 1));
+            }),
+            "FAIL: the audit trail in copy.pdf does not end with the line whose hash is printed on "
+            "its pages: it was cut short or continued");
+  EXPECT_EQ(VerifiedReport([&](QPDF& pdf) { AttachToPdf(pdf, "audit.jsonl", trail); }),
+            "FAIL: the audit trail in copy.pdf does not end with the line whose hash is printed on "
+            "its pages: it was cut short or continued");
+}
+
+TEST_F(AuditCheckTest, AReportThatWasExchangedAsAWholeIsSeen) {
+  Write(Results() / "report.pdf", EditedPdf(report_, [](QPDF&) {}) + "\n");
+  EXPECT_EQ(VerifiedFolder(),
+            "FAIL: report.pdf was changed after line 3 (report) of the audit trail made it");
+  EXPECT_EQ(Verified(Results() / "report.pdf"), VerifiedFolder());
+}
+
+TEST_F(AuditCheckTest, ARecordedSignatureMustBeThere) {
+  auto trail = AuditTrail::Open(Results() / "audit.jsonl");
+  ASSERT_TRUE(
+      trail
+          ->Append(
+              "sign",
+              {{"role", "operator"}, {"file", "report.pdf"}, {"sha256_after", Sha256Hex(report_)}},
+              "")
+          .ok());
+  ASSERT_TRUE(trail->Sync().ok());
+  EXPECT_EQ(VerifiedFolder(),
+            "FAIL: the signature of the operator is missing in report.pdf, which line 4 (sign) of "
+            "the audit trail tells of");
+}
+
+TEST_F(AuditCheckTest, ARequiredSignatureMustBeThere) {
+  AuditQuestion question;
+  question.subject = Results();
+  question.trust.required_roles = {"reviewer"};
+  const auto answer = VerifyAudit(question);
+  ASSERT_TRUE(answer.ok());
+  EXPECT_FALSE(answer->passed);
+  EXPECT_NE(answer->line.find("reviewer"), std::string::npos) << answer->line;
+}
+
+TEST_F(AuditCheckTest, TheInstrumentsLogMustTellOfTheLatestLine) {
+  const fs::path file = scratch_.path() / "log.jsonl";
+  auto log = AuditTrail::Open(file);
+  ASSERT_TRUE(log->Append("run", {{"trail_head", std::string(64, 'a')}}, "").ok());
+  ASSERT_TRUE(log->Sync().ok());
+  AuditQuestion question;
+  question.subject = Results();
+  question.log = file;
+  EXPECT_EQ(VerifyAudit(question)->line,
+            "FAIL: " + file.string() +
+                " does not tell of the latest line of the audit trail: it was written or cut off "
+                "without the instrument's log");
+  const std::string head = AuditTrail::Open(Results() / "audit.jsonl")->head();
+  ASSERT_TRUE(log->Append("run", {{"trail_head", head}}, "").ok());
+  ASSERT_TRUE(log->Sync().ok());
+  EXPECT_TRUE(VerifyAudit(question)->line.ends_with("; 2 lines of the instrument's log chained"));
+  EXPECT_EQ(Verified(file), "PASS: 2 lines of the instrument's log chained");
+}
+
+TEST_F(AuditCheckTest, WhatCannotBeReadIsNoAnswer) {
+  EXPECT_EQ(Verified(scratch_.path() / "none"),
+            "error: " + (scratch_.path() / "none").string() + ": does not exist");
+  AuditQuestion question;
+  question.subject = Results();
+  question.public_key = Results() / "audit.jsonl";
+  EXPECT_EQ(VerifyAudit(question).error().kind, ErrorKind::kUsage);
+}
+
+TEST(StepOrderTest, AStepTakesAwayWhatIsMadeFromIt) {
+  EXPECT_TRUE(Supersedes("calibrate", "measure"));
+  EXPECT_TRUE(Supersedes("measure", "report"));
+  EXPECT_TRUE(Supersedes("report", "sign"));
+  EXPECT_FALSE(Supersedes("measure", "calibrate"));
+  EXPECT_FALSE(Supersedes("calibrate", "calibrate"));
+  EXPECT_FALSE(Supersedes("verify", "measure"));
+  EXPECT_FALSE(Supersedes("diagnose", "render"));
+  EXPECT_FALSE(Supersedes("detect", "export"));
+}
+
+TEST_F(AuditCheckTest, AStepIsRecordedOnceUntilOneBeforeItIsDoneAnew) {
+  auto trail = AuditTrail::Open(scratch_.path() / "t.jsonl");
+  const Json a{{"x", 1}}, b{{"x", 2}};
+  ASSERT_TRUE(trail->Append("calibrate", a, "").ok());
+  ASSERT_TRUE(trail->Append("verify", a, "").ok());
+  EXPECT_TRUE(IsRecorded(*trail, "calibrate", a));
+  EXPECT_TRUE(IsRecorded(*trail, "verify", a));
+  EXPECT_FALSE(IsRecorded(*trail, "verify", b));
+  ASSERT_TRUE(trail->Append("calibrate", b, "").ok());
+  EXPECT_FALSE(IsRecorded(*trail, "verify", a));
+}
+
+TEST(FileDifferenceTest, SaysWhereTwoFilesDiffer) {
+  EXPECT_EQ(FirstDifference("a.json", "{}", "{}"), "");
+  EXPECT_EQ(FirstDifference("a.json", R"({"b":[1,2]})", R"({"b":[1,3]})"),
+            "/b/1 is 2, made again 3");
+  EXPECT_EQ(FirstDifference("a.json", R"({"b":1,"c":2})", R"({"b":1})"), "/c is new: 2");
+  EXPECT_EQ(FirstDifference("a.json", R"({"b":1})", R"({"b":1,"c":2})"),
+            "/c is missing, made again 2");
+  EXPECT_EQ(FirstDifference("a.json", R"({"b": 1})", R"({"b":1})"),
+            "the same values are written otherwise");
+  EXPECT_EQ(FirstDifference("a.csv", "h\n1,2\n", "h\n1,3\n"), "line 2 is '1,2', made again '1,3'");
+  EXPECT_EQ(FirstDifference("a.csv", "h\n", "h\n1\n"), "line 2 is '', made again '1'");
+  EXPECT_EQ(FirstDifference("a.png", std::string("\0a", 2), std::string("\0bc", 3)),
+            "byte 1 is another; it has 2 bytes, made again 3");
+}
+
+TEST(TellAuditTest, TellsStepsSignaturesAndRuns) {
+  AuditEntry step;
+  step.type = "calibrate";
+  step.body = {{"program", {{"version", "1.2.3"}}},
+               {"options", {{"outliers", "mrcal"}, {"board-warp", true}, {"compare", ""}}},
+               {"inputs", std::vector{FileOf("results", "corners.vnl", "x")}},
+               {"outputs", std::vector{FileOf("results", "calibration.json", "y")}}};
+  AuditEntry sign;
+  sign.seq = 1;
+  sign.time = "2026-01-02T03:04:05Z";
+  sign.type = "sign";
+  sign.body = {{"role", "operator"}, {"signer", "Zhang Wei"}, {"file", "report.pdf"}};
+  AuditEntry run;
+  run.seq = 2;
+  run.type = "run";
+  run.body = {{"user", "anna"},
+              {"host", {{"name", "bench"}}},
+              {"arguments", {"detect", "s", "--out", "r"}},
+              {"exit_code", 0}};
+  EXPECT_EQ(TellAudit({step, sign, run}),
+            (std::vector<std::string>{
+                "  1  Lens and views were calibrated, from 1 file; made calibration.json "
+                "(telestrain 1.2.3).",
+                "     with outliers mrcal, board-warp",
+                "  2  2026-01-02T03:04:05Z  Zhang Wei signed report.pdf as operator.",
+                "  3  anna on bench ran 'telestrain detect s --out r', which ended with 0 "
+                "(accepted)."}));
+}
+
+}  // namespace
+}  // namespace telestrain
