@@ -13,9 +13,10 @@ Color ColorOfText(const std::string& text) {
   return ColorOf(static_cast<unsigned>(std::stoul(text.substr(1), nullptr, 16)));
 }
 
-// Names and titles of the session are printed as they were given.
-bool IsOfTheSession(const std::string& key) {
-  return key == "document" || key == "title" || key == "inputs" || key == "schema";
+// The parts of results.json that hold sentences; names and titles of the session are printed as
+// they were given.
+bool HoldsSentences(const std::string& key) {
+  return key == "decision" || key == "diagnosis" || key == "sentences";
 }
 
 bool IsPhrase(const Json& json) { return json.is_object() && json.contains("pattern"); }
@@ -111,7 +112,7 @@ Json ReportTemplate::FillValues(const Json& results) const {
   Json values = Json::object();
   for (const auto& [key, value] : results.items()) {
     if (key == "tables" || key == "quantities" || key == "inputs") continue;
-    values[key] = IsOfTheSession(key) ? value : Said(texts_, value);
+    values[key] = HoldsSentences(key) ? Said(texts_, value) : value;
   }
   std::string number =
       TextAt(results, "/document/number", TextAt(results, "/document/report_number"));

@@ -14,7 +14,7 @@ struct ContentsCheck {
   std::string signer, fingerprint, time_stamp_time;  // as PdfSignature
   std::string failure;                               // empty when it holds
 };
-// Cheap checks first: encoding, digest of the bytes, the signature, time stamp, chains. Without
+// Cheap checks first: encoding, signature, digest of the bytes, time stamp, chains. Without
 // `trusted` the chains are left out.
 ContentsCheck CheckContents(std::string_view bytes, const RawSignature& signature,
                             const std::vector<std::string>* trusted);

@@ -99,7 +99,8 @@ class IntegrityCheck {
     OpenedPdf previous = OpenPdf(previous_bytes);
     if (!previous.pdf) return previous.failure;
     // One that was there before the first: an update that ReadSignedLayout does not know.
-    if (previous.pdf->getTrailer().hasKey("/Prev") || previous.pdf->getTrailer().hasKey("/XRefStm"))
+    if (previous_bytes.find("startxref\n") != previous_bytes.rfind("startxref\n") ||
+        previous.pdf->getTrailer().hasKey("/Prev") || previous.pdf->getTrailer().hasKey("/XRefStm"))
       return "the file has a revision that no signature made";
     if (const auto failure = FieldsFailure(*previous.pdf, {}); !failure.empty()) return failure;
     for (std::size_t i = 0; i < layout_.signatures.size(); ++i) {

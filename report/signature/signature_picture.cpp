@@ -12,6 +12,7 @@ namespace {
 constexpr double kMargin_pt = 3;
 constexpr double kLargest_pt = 7.5;
 constexpr double kSmallest_pt = 4;
+constexpr double kFlat_pt = 36;  // five lines would be below 6 pt
 constexpr Color kInk = ColorOf(0x14324F);
 constexpr Color kWarning = ColorOf(0xB00020);
 
@@ -21,17 +22,23 @@ struct Line {
   Color color;
 };
 
+// A flat box has the facts side by side.
 std::vector<Line> LinesOf(const SignaturePicture& picture) {
   std::string role = picture.role;
   role.front() = static_cast<char>(role.front() - 'a' + 'A');
-  std::vector<Line> lines = {{Face::kBold, picture.name, kInk},
-                             {Face::kRegular, role + ", " + picture.time, kInk}};
   std::string why = picture.reason;
   if (!picture.place.empty()) why += (why.empty() ? "" : ", ") + picture.place;
+  const std::string when = role + ", " + picture.time;
+  const std::string hash = "SHA-256 " + picture.fingerprint.substr(0, 16);
+  std::vector<Line> lines = {{Face::kBold, picture.name, kInk}};
+  if (picture.height_pt < kFlat_pt)
+    lines.push_back({Face::kRegular, when + " · " + hash, kInk});
+  else
+    lines.push_back({Face::kRegular, when, kInk});
   if (!why.empty()) lines.push_back({Face::kRegular, why, kInk});
   if (picture.demonstration)
     lines.push_back({Face::kBold, "Demonstration key – not for production", kWarning});
-  lines.push_back({Face::kMono, "SHA-256 " + picture.fingerprint.substr(0, 16), kInk});
+  if (picture.height_pt >= kFlat_pt) lines.push_back({Face::kRegular, hash, kInk});
   return lines;
 }
 
@@ -57,8 +64,8 @@ Result<std::string> DrawSignaturePicture(const SignaturePicture& picture) {
   pdf->AddPage();
   const auto lines = LinesOf(picture);
   const double width_pt = picture.width_pt - 2 * kMargin_pt;
-  const double line_pt = (picture.height_pt - 2 * kMargin_pt) / static_cast<double>(lines.size());
-  double y_pt = picture.height_pt - kMargin_pt;
+  const double line_pt = (picture.height_pt - kMargin_pt) / static_cast<double>(lines.size());
+  double y_pt = picture.height_pt - kMargin_pt / 2;
   for (const Line& line : lines) {
     TextStyle style{line.face, std::min(kLargest_pt, line_pt / 1.2), line.color};
     const double natural_pt = pdf->TextWidth_pt(style, line.text);

@@ -65,7 +65,7 @@ std::optional<Url> ParseUrl(const std::string& text) {
 
 Result<ResponsePtr> Send(const std::string& text, TS_REQ* request) {
   const auto url = ParseUrl(text);
-  if (!url || !text.starts_with("http://"))
+  if (!url || url->host.empty() || !text.starts_with("http://"))
     return BadInput("--timestamp " + text +
                     ": want http://host/path of an RFC 3161 responder "
                     "(its answer is signed, so https adds nothing)");

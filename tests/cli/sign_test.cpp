@@ -1,0 +1,88 @@
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "cli/session_copy.h"
+
+namespace telestrain::testing_support {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Keys come from the openssl program, as bootstrap's do; the library's tests make their own.
+class SignVerb : public SessionCopy {
+ protected:
+  void SetUp() override {
+    SessionCopy::SetUp();
+    const std::string folder = scratch().string();
+    const std::string command =
+        "cd '" + folder +
+        "' && openssl req -x509 -newkey rsa:2048 -keyout key.pem -out cert.pem -days 2 -passout "
+        "pass:geheim -subj '/CN=Test operator' >/dev/null 2>&1 && "
+        "openssl pkcs12 -export -inkey key.pem -in cert.pem -passin pass:geheim -passout "
+        "pass:geheim -out both.p12 >/dev/null 2>&1";
+    if (std::system(command.c_str()) != 0) GTEST_SKIP() << "openssl is not installed";
+    std::ofstream(scratch() / "password") << "geheim\n";
+  }
+  std::string Report() const { return (results() / "report.pdf").string(); }
+  std::string File(const std::string& name) const { return (scratch() / name).string(); }
+  std::vector<std::string> Words(std::vector<std::string> more) const {
+    std::vector<std::string> words = {"sign", Report()};
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+  }
+};
+
+TEST_F(SignVerb, SignsReplacesTheFileAndRecordsItInTheTrail) {
+  MustRun({"run"});
+  const std::string before = ReadAll(Report());
+  std::ofstream(results() / "audit.jsonl", std::ios::app);  // `run` writes one, or it is empty
+  const ProgramRun run =
+      RunTelestrain(Words({"--role", "operator", "--p12", File("both.p12"), "--password-file",
+                           File("password"), "--reason", "Checked"}));
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_TRUE(run.out.starts_with("signed     " + Report() + " as operator: Test operator, "))
+      << run.out;
+  const std::string after = ReadAll(Report());
+  EXPECT_GT(after.size(), before.size());
+  EXPECT_TRUE(after.starts_with(before));
+  std::istringstream lines(ReadAll(results() / "audit.jsonl"));
+  std::string line, last;
+  while (std::getline(lines, line)) last = line;
+  const auto entry = nlohmann::json::parse(last)["entry"];
+  EXPECT_EQ(entry["type"], "sign");
+  EXPECT_EQ(entry["body"]["role"], "operator");
+  EXPECT_EQ(entry["body"]["signer"], "Test operator");
+
+  // The second time it is refused and nothing changes.
+  const ProgramRun again = RunTelestrain(
+      Words({"--role", "operator", "--key", File("key.pem"), "--cert", File("cert.pem")}),
+      {.environment = {{"TELESTRAIN_KEY_PASSWORD", "geheim"}}});
+  EXPECT_EQ(again.exit_code, 3);
+  EXPECT_NE(again.err.find("the operator has already signed (Test operator, "), std::string::npos)
+      << again.err;
+  EXPECT_EQ(ReadAll(Report()), after);
+}
+
+TEST_F(SignVerb, SaysWhatIsMissing) {
+  fs::create_directories(results());
+  std::ofstream(Report()) << "no PDF";
+  const auto expect = [&](std::vector<std::string> more, int code, const std::string& wanted) {
+    const ProgramRun run = RunTelestrain(Words(std::move(more)));
+    EXPECT_EQ(run.exit_code, code) << run.err;
+    EXPECT_NE((run.err + run.out).find(wanted), std::string::npos) << run.err << run.out;
+  };
+  const std::string p12 = File("both.p12"), password = File("password");
+  expect({"--role", "operator"}, 2, "give --p12 FILE, or --key FILE with --cert FILE");
+  expect({"--role", "boss", "--p12", p12}, 2, "--role");
+  expect({"--role", "operator", "--p12", p12, "--time", "yesterday"}, 2, "want ISO 8601");
+  expect({"--role", "operator", "--p12", p12}, 3, "there is no terminal to ask");
+  expect({"--role", "operator", "--p12", p12, "--password-file", password}, 3,
+         "the PDF is damaged");
+  EXPECT_EQ(ReadAll(Report()), "no PDF");
+}
+
+}  // namespace
+}  // namespace telestrain::testing_support
