@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -48,6 +49,8 @@ struct ReportOptions {
   std::string name = "acceptance";  // of the layout: NAME.json
   std::string language = "en";      // of the texts: texts/LANGUAGE.json
   ArchiveLevel level = ArchiveLevel::k3a;
+  // Called for every wording that the language lacks and that is printed in English; may be empty.
+  std::function<void(const std::string&)> on_untranslated = {};
 };
 
 // Writes report.pdf (A4, PDF/A-3a and PDF/UA-1, fonts embedded, bookmarks) from results.json,

@@ -76,7 +76,7 @@ void DrawRoseLegend(const ReportContext& context, const PageBox& box) {
       pdf.DrawLine({x_pt, y_pt}, {x_pt + 12, y_pt}, *line);
     else
       pdf.FillBox({x_pt + 3, y_pt - 3, 6, 6}, kBars);
-    const std::string translated = context.layout.Translate(text);
+    const std::string translated = context.layout.Say(text);
     pdf.DrawText(style, {x_pt + 15, y_pt - 2.6}, translated);
     x_pt += 15 + pdf.TextWidth_pt(style, translated) + 8;
   };
@@ -119,7 +119,7 @@ Status DrawDiagnosisHistogram(const ReportContext& context, const PageBox& box) 
   const auto center_px = [&](std::size_t i) {
     return *first_px + *bin_px * static_cast<double>(i);
   };
-  const auto translate = [&](const char* text) { return context.layout.Translate(text); };
+  const auto translate = [&](const char* text) { return context.layout.Say(text); };
   // One count stands well above the foot of the logarithmic axis.
   const PlotAxis y{
       translate("Count"), 0.5, 1.5 * std::max(1.0, LargestOf(counts)), false, false, true};
@@ -165,7 +165,7 @@ Status DrawDiagnosisLengths(const ReportContext& context, const PageBox& box) {
     ++counts[static_cast<std::size_t>(std::hypot(r.du_px, r.dv_px) / width_px)];
   const double scale = static_cast<double>(residuals.size()) * width_px;
   const double peak = scale * Rayleigh(*sigma_px, *sigma_px);
-  const auto translate = [&](const char* text) { return context.layout.Translate(text); };
+  const auto translate = [&](const char* text) { return context.layout.Say(text); };
   const double reach_px = width_px * static_cast<double>(counts.size());
   Plot plot(context.flow, box,
             {translate("Length of a corner's residual / px"), 0, reach_px, false, false, false,

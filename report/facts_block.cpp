@@ -32,8 +32,8 @@ std::string FactText(const Json& row) {
 
 void DrawFacts(PageFlow& flow, const Json& table, int columns, double width_pt,
                const std::function<std::string(const std::string&)>& translate) {
-  const TextStyle name_style{Face::kRegular, 8.5, flow.look().muted};
-  const TextStyle value_style{Face::kRegular, 9, flow.look().ink};
+  const TextStyle name_style{Face::kRegular, flow.look().Scaled_pt(8.5), flow.look().muted};
+  const TextStyle value_style{Face::kRegular, flow.look().Scaled_pt(9), flow.look().ink};
   const Json& rows = ListAt(table, "/rows");
   const double gap_pt = 14, column_pt = (width_pt - gap_pt * (columns - 1)) / columns;
   const auto name_of = [&](const Json& row) { return translate(CellText(row[0])); };

@@ -86,7 +86,7 @@ std::vector<FieldMap> MapsOf(const ReportContext& context, const Json& diagnosis
   for (const Json& view : ListAt(diagnosis, "/residuals/views")) {
     auto map = MapOf(view, key);
     if (!map) continue;
-    map->title = context.layout.Translate("View") + " " + TextAt(view, "/view", "?");
+    map->title = context.layout.Say("View") + " " + TextAt(view, "/view", "?");
     maps.push_back(std::move(*map));
   }
   return maps;
@@ -104,7 +104,7 @@ std::vector<FieldMap> UncertaintyMapsOf(const ReportContext& context, const Json
     if (!columns || !rows || !step_x_px || !step_y_px || *step_x_px <= 0 || *step_y_px <= 0 ||
         *columns < 2 || static_cast<double>(values.size()) != *columns * *rows)
       continue;
-    FieldMap map{context.layout.Translate("View") + " " + TextAt(entry, "/view", "?"),
+    FieldMap map{context.layout.Say("View") + " " + TextAt(entry, "/view", "?"),
                  static_cast<int>(*columns),
                  static_cast<int>(*rows),
                  *step_x_px,
@@ -159,7 +159,7 @@ Status DrawRegionalMeans(const ReportContext& context, const PageBox& box) {
   const double sigma_px = NumberAt(diagnosis, "/residuals/sigma_px").value_or(0);
   const double reach_px = std::max(LargestOf(maps), sigma_px);
   DrawFieldMaps(context, box, maps,
-                {context.layout.Translate("Mean residual / px"), -reach_px, reach_px});
+                {context.layout.Say("Mean residual / px"), -reach_px, reach_px});
   return {};
 }
 
@@ -167,7 +167,7 @@ Status DrawRegionalDeviations(const ReportContext& context, const PageBox& box) 
   TELESTRAIN_ASSIGN_OR_RETURN(const Json diagnosis, ReadDiagnosis(context.folder));
   const std::vector<FieldMap> maps = MapsOf(context, diagnosis, "/sd_px");
   DrawFieldMaps(context, box, maps,
-                {context.layout.Translate("Standard deviation / px"), 0, LargestOf(maps)});
+                {context.layout.Say("Standard deviation / px"), 0, LargestOf(maps)});
   return {};
 }
 
@@ -175,7 +175,7 @@ Status DrawProjectionUncertainty(const ReportContext& context, const PageBox& bo
   TELESTRAIN_ASSIGN_OR_RETURN(const Json diagnosis, ReadDiagnosis(context.folder));
   const std::vector<FieldMap> maps = UncertaintyMapsOf(context, diagnosis, "/sigma_of_noise_um");
   DrawFieldMaps(context, box, maps,
-                {context.layout.Translate("Standard uncertainty / µm"), 0, LargestOf(maps)});
+                {context.layout.Say("Standard uncertainty / µm"), 0, LargestOf(maps)});
   return {};
 }
 
@@ -183,7 +183,7 @@ Status DrawProjectionUncertaintyOfEverything(const ReportContext& context, const
   TELESTRAIN_ASSIGN_OR_RETURN(const Json diagnosis, ReadDiagnosis(context.folder));
   const std::vector<FieldMap> maps = UncertaintyMapsOf(context, diagnosis, "/sigma_um");
   DrawFieldMaps(context, box, maps,
-                {context.layout.Translate("Standard uncertainty / µm"), 0, LargestOf(maps)});
+                {context.layout.Say("Standard uncertainty / µm"), 0, LargestOf(maps)});
   return {};
 }
 

@@ -31,6 +31,7 @@ std::optional<double> NumberAt(const Json& json, const std::string& pointer) {
 std::string TextAt(const Json& json, const std::string& pointer, const std::string& otherwise) {
   const Json& entry = EntryAt(json, pointer);
   if (entry.is_string()) return entry.get<std::string>();
+  if (entry.is_object() && entry.contains("printed")) return TextAt(entry, "/printed", otherwise);
   if (entry.is_number() || entry.is_boolean()) return entry.dump();
   return otherwise;
 }

@@ -15,7 +15,7 @@ using Json = nlohmann::ordered_json;
 const Json& EntryAt(const Json& json, const std::string& pointer);
 // A finite number, or nothing.
 std::optional<double> NumberAt(const Json& json, const std::string& pointer);
-// A text; numbers and booleans are given as their JSON text.
+// A text; numbers and booleans are given as their JSON text, cells and Phrases as they are printed.
 std::string TextAt(const Json& json, const std::string& pointer, const std::string& otherwise = "");
 // An array, or an empty one.
 const Json& ListAt(const Json& json, const std::string& pointer);

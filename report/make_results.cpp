@@ -5,14 +5,16 @@
 #include "base/json_file.h"
 #include "base/numbers.h"
 #include "report/acceptance_report.h"
+#include "report/dcc/dcc.h"
 #include "report/results_parts.h"
+#include "report/results_scope.h"
 
 namespace telestrain {
 namespace {
 
 struct Parts {
-  Json inputs, detection, calibration, diagnosis, ruler,
-      strain;  // null when the file does not exist
+  // Null when the file does not exist.
+  Json inputs, detection, calibration, comparison, diagnosis, ruler, strain;
 };
 
 Result<Json> ReadOptional(const std::filesystem::path& path, const std::string& schema,
@@ -32,6 +34,9 @@ Result<Parts> ReadParts(const std::filesystem::path& results) {
                               ReadOptional(results / "calibration.json", "telestrain.calibration/1",
                                            "telestrain calibrate"));
   TELESTRAIN_ASSIGN_OR_RETURN(
+      parts.comparison,
+      ReadOptional(results / "comparison.json", "telestrain.comparison/1", "telestrain calibrate"));
+  TELESTRAIN_ASSIGN_OR_RETURN(
       parts.diagnosis,
       ReadOptional(results / "mrcal.json", "telestrain.mrcal/1", "telestrain diagnose"));
   TELESTRAIN_ASSIGN_OR_RETURN(
@@ -42,36 +47,29 @@ Result<Parts> ReadParts(const std::filesystem::path& results) {
   return parts;
 }
 
-std::string RuleSentence(const Acceptance& acceptance) {
-  const std::string k = FormatShortest(acceptance.coverage_factor);
-  if (acceptance.rule == DecisionRule::kSimple)
-    return "Decision rule: simple acceptance; pass if |result| ≤ limit, fail otherwise. The "
-           "expanded uncertainty U (k = " +
-           k + ") is stated and not used for the decision.";
-  return "Decision rule: guarded after ISO 14253-1; pass if |result| + U ≤ limit, fail if "
-         "|result| - U > limit, in doubt between. U is the expanded uncertainty, k = " +
-         k +
-         "; a result that has no U by its nature is compared directly, one whose U is missing is "
-         "not decided.";
+// Limits that were asked for and could not be decided, so that a pass never hides them.
+bool IsUndecided(const Quantity& quantity) {
+  return quantity.limit && quantity.verdict.value_or(Verdict::kUndecided) == Verdict::kUndecided;
 }
 
-// Limits that were asked for and could not be decided, so that a pass never hides them.
-std::string UndecidedSentence(const ResultsDraft& draft) {
-  std::string names;
+Json UndecidedSentence(const ResultsDraft& draft) {
+  std::vector<Json> labels;
   for (const Quantity& quantity : draft.quantities)
-    if (quantity.limit && quantity.verdict.value_or(Verdict::kUndecided) == Verdict::kUndecided)
-      names += (names.empty() ? "" : "; ") + quantity.label;
-  return names.empty() ? "" : "Not decided although a limit is set: " + names + ".";
+    if (IsUndecided(quantity)) labels.push_back(quantity.label);
+  if (labels.empty()) return "";
+  return Phrase("Not decided although a limit is set: {{quantities}}.",
+                {{"quantities", JoinPhrases(labels, "; ")}});
 }
 
 ResultTable SummaryTable(const ResultsDraft& draft) {
-  ResultTable table("summary", "Summary of results",
-                    {{"Quantity", ""},
-                     {"Result", ""},
-                     {"U (k = " + FormatShortest(draft.acceptance.coverage_factor) + ")", ""},
-                     {"Limit", ""},
-                     {"Unit", ""},
-                     {"Verdict", ""}});
+  ResultTable table(
+      "summary", "Summary of results",
+      {{"Quantity", ""},
+       {"Result", ""},
+       {Phrase("U (k = {{k}})", {{"k", FormatShortest(draft.acceptance.coverage_factor)}}), ""},
+       {"Limit", ""},
+       {"Unit", ""},
+       {"Verdict", ""}});
   for (const Quantity& quantity : draft.quantities) {
     if (!quantity.in_summary) continue;
     const Json json = QuantityJson(quantity, draft.acceptance.coverage_factor);
@@ -82,6 +80,7 @@ ResultTable SummaryTable(const ResultsDraft& draft) {
          {{"value", json["limit"]}, {"printed", json["printed_limit"]}},
          quantity.unit,
          VerdictCell(quantity.verdict.value_or(Verdict::kUndecided))});
+    table.LinkLastRow(quantity.section);
   }
   return table;
 }
@@ -89,9 +88,11 @@ ResultTable SummaryTable(const ResultsDraft& draft) {
 // Every limit's verdict with its margin in words.
 ResultTable DecisionsTable(const ResultsDraft& draft) {
   ResultTable table("decisions", "Decisions", {{"Quantity", ""}, {"Decision", ""}});
-  for (const Quantity& quantity : draft.quantities)
-    if (quantity.in_summary && quantity.limit && !quantity.is_check)
-      table.AddRow({quantity.label, DecisionWords(quantity, draft.acceptance)});
+  for (const Quantity& quantity : draft.quantities) {
+    if (!quantity.in_summary || !quantity.limit || quantity.is_check) continue;
+    table.AddRow({quantity.label, DecisionWords(quantity, draft.acceptance)});
+    table.LinkLastRow(quantity.section);
+  }
   return table;
 }
 
@@ -108,8 +109,10 @@ Result<ResultTable> EvidenceTable(const std::filesystem::path& results) {
   return table;
 }
 
-Json ResultsJson(ResultsDraft draft, const Json& inputs, const std::string& verdict) {
+Json ResultsJson(ResultsDraft draft, const ReportScope& scope, const Json& inputs,
+                 const std::string& verdict) {
   Json json = {{"schema", "telestrain.results/1"},
+               {"report", {{"layout", scope.name}, {"sections", scope.sections}}},
                {"verdict", verdict},
                {"title", TextAt(inputs, "/title")},
                {"document", EntryAt(inputs, "/document")},
@@ -138,7 +141,8 @@ Outcome OutcomeOf(const ResultsDraft& draft) {
     if (!quantity.is_check || quantity.verdict != Verdict::kPass)
       verdicts.push_back(quantity.verdict.value_or(Verdict::kUndecided));
   Outcome outcome{VerdictName(OverallVerdict(verdicts)), false};
-  const bool all_decided = UndecidedSentence(draft).empty();
+  const bool all_decided =
+      std::none_of(draft.quantities.begin(), draft.quantities.end(), IsUndecided);
   if (outcome.verdict == "pass" && !all_decided) outcome.verdict = "undecided";
   const bool measured = std::any_of(draft.measured.begin(), draft.measured.end(),
                                     [](const Json& section) { return section == true; });
@@ -147,25 +151,77 @@ Outcome OutcomeOf(const ResultsDraft& draft) {
   return outcome;
 }
 
+// The parts of the sections that the layout is about; the others stay out as if they did not exist.
+void AddSections(const Parts& parts, const ReportScope& scope, ResultsDraft& draft) {
+  static const Json kNothing;
+  const auto part = [&](const char* section, const Json& json) -> const Json& {
+    return IsInScope(scope, section) ? json : kNothing;
+  };
+  const Json& ruler = part("ruler", parts.ruler);
+  const Json& strain = part("strain", parts.strain);
+  AddCalibration(parts.calibration, parts.detection, draft);
+  AddDiagnosis(part("diagnosis", parts.diagnosis), parts.ruler, draft);
+  AddRuler(ruler, draft);
+  AddStrain(strain, draft);
+  AddCorrelation(parts.inputs, parts.calibration, strain, draft);
+  AddBudgets(ruler, strain, draft);
+  LeaveScope(scope, draft);
+}
+
+// What moved since the earlier calibration. comparison.json counts when it compares with that very
+// file; else the two are compared here.
+void AddInstrumentChanges(const Parts& parts, const EarlierResults& earlier,
+                          const std::string& calibration_sha256, ResultsDraft& draft) {
+  if (!earlier.calibration_sha256.empty() && earlier.calibration_sha256 == calibration_sha256) {
+    draft.sentences["changes_calibration"] = "Both reports use the same calibration.";
+    return;
+  }
+  const bool same = TextAt(parts.comparison, "/compared_with/sha256") == earlier.calibration_sha256;
+  AddCalibrationChanges(same ? ChangesOfComparison(parts.comparison)
+                             : ChangesOfCalibrations(earlier.calibration, parts.calibration),
+                        draft);
+}
+
+Status AddEarlier(const Parts& parts, const ReportScope& scope, const Json& evidence,
+                  ResultsDraft& draft) {
+  draft.measured["changes"] = !scope.earlier.empty();
+  if (scope.earlier.empty()) {
+    AddCalibrationChanges(ChangesOfComparison(parts.comparison), draft);
+    return {};
+  }
+  TELESTRAIN_ASSIGN_OR_RETURN(const EarlierResults earlier, ReadEarlierResults(scope.earlier));
+  TELESTRAIN_RETURN_IF_ERROR(RequireComparable(earlier, scope.earlier.string(), parts.inputs,
+                                               parts.calibration, evidence));
+  AddChanges(earlier, draft);
+  std::string calibration_sha256;
+  for (const Json& row : ListAt(evidence, "/rows"))
+    if (TextAt(row, "/0") == "calibration.json") calibration_sha256 = TextAt(row, "/2");
+  AddInstrumentChanges(parts, earlier, calibration_sha256, draft);
+  return {};
+}
+
 }  // namespace
 
-Result<Outcome> MakeResults(const std::filesystem::path& results, const ReportScope&) {
+Result<Outcome> MakeResults(const std::filesystem::path& results, const ReportScope& scope) {
+  TELESTRAIN_RETURN_IF_ERROR(CheckScope(scope));
   TELESTRAIN_ASSIGN_OR_RETURN(const Parts parts, ReadParts(results));
   ResultsDraft draft;
   draft.acceptance = ReadAcceptance(parts.inputs);
-  AddCalibration(parts.calibration, parts.detection, draft);
-  AddDiagnosis(parts.diagnosis, parts.ruler, draft);
-  AddRuler(parts.ruler, draft);
-  AddStrain(parts.strain, parts.calibration, draft);
+  ApplyLimits(scope, draft);
+  AddSections(parts, scope, draft);
+  const Outcome outcome = OutcomeOf(draft);
   draft.AddTable(SummaryTable(draft));
   ResultTable decisions = DecisionsTable(draft);
   if (!decisions.empty()) draft.AddTable(std::move(decisions));
+  AddItem(parts.inputs, draft);
   AddInputs(parts.inputs, parts.strain, draft);
   TELESTRAIN_ASSIGN_OR_RETURN(ResultTable evidence, EvidenceTable(results));
   draft.AddTable(std::move(evidence));
-  const Outcome outcome = OutcomeOf(draft);
-  TELESTRAIN_RETURN_IF_ERROR(WriteJson(
-      results / "results.json", ResultsJson(std::move(draft), parts.inputs, outcome.verdict)));
+  TELESTRAIN_RETURN_IF_ERROR(AddEarlier(parts, scope, draft.tables.back(), draft));
+  const Json json = ResultsJson(std::move(draft), scope, parts.inputs, outcome.verdict);
+  TELESTRAIN_RETURN_IF_ERROR(WriteJson(results / "results.json", json));
+  TELESTRAIN_ASSIGN_OR_RETURN(const std::string dcc, MakeDcc(json, parts.calibration));
+  TELESTRAIN_RETURN_IF_ERROR(WriteFileAtomically(results / "dcc.xml", dcc));
   return outcome;
 }
 

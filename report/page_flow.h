@@ -19,9 +19,13 @@ struct Look {
   Color doubt = ColorOf(0x9A5B00);
   Color fail = ColorOf(0xB3261E);
 
-  TextStyle Body() const { return {Face::kRegular, 9, ink}; }
-  TextStyle Note() const { return {Face::kRegular, 8, muted}; }
-  TextStyle Strong() const { return {Face::kBold, 9, ink}; }
+  double base_size_pt = 9;  // of the body text; the other sizes follow it
+
+  // A size that was chosen for a body of 9 pt.
+  double Scaled_pt(double size_pt) const { return size_pt * base_size_pt / 9; }
+  TextStyle Body() const { return {Face::kRegular, Scaled_pt(9), ink}; }
+  TextStyle Note() const { return {Face::kRegular, Scaled_pt(8), muted}; }
+  TextStyle Strong() const { return {Face::kBold, Scaled_pt(9), ink}; }
   Color OfVerdict(const std::string& verdict) const;
 };
 

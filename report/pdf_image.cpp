@@ -9,8 +9,8 @@ namespace {
 
 constexpr std::size_t kMostInWork = 2;
 
-// Of a rendering, level 6 gives 3 % smaller files than level 4 in twice the time.
-constexpr int kCompression = 4;
+// Of renderings level 6 makes 4 to 9 % less than level 4, in 1.6 times the time.
+constexpr int kCompression = 6;
 
 std::string Deflated(const std::string& bytes) {
   uLongf size = compressBound(static_cast<uLong>(bytes.size()));

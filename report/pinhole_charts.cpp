@@ -69,7 +69,7 @@ Status DrawAgainstDistance(const ReportContext& context, const PageBox& box, con
   double nearest_m = distances_m[0], farthest_m = nearest_m, low = values[0], high = low;
   Widen(distances_m, nearest_m, farthest_m);
   Widen(values, low, high);
-  const auto translate = [&](const char* text) { return context.layout.Translate(text); };
+  const auto translate = [&](const char* text) { return context.layout.Say(text); };
   constexpr double kRoom = 1.25;  // so that markers do not stand on the frame
   Plot plot(context.flow, box,
             {translate("Working distance D / m"), nearest_m / kRoom, farthest_m * kRoom, false,

@@ -14,8 +14,27 @@ namespace {
 
 constexpr Color kWhite{1, 1, 1};
 constexpr double kPixel_pt = 72.0 / 300;  // pictures are printed at 300 dpi
+constexpr double kLogoEdge_pt = 5, kLogoGap_pt = 12;
 
 Color PaleAccent() { return ColorOf(0xC9D6E3); }
+
+// The size of the user's logo with the white edge around it; nothing without one.
+PageBox LogoBox(const ReportContext& context) {
+  if (!context.layout.logo()) return {};
+  const RgbImage& logo = *context.layout.logo();
+  const double height_pt = context.layout.LogoHeight_mm() * kPointsPerMm;
+  return {context.flow.left_pt(), kPageHeight_pt - 16 - height_pt - 2 * kLogoEdge_pt,
+          height_pt * logo.width_px / logo.height_px + 2 * kLogoEdge_pt,
+          height_pt + 2 * kLogoEdge_pt};
+}
+
+void DrawLogo(const ReportContext& context, const PageBox& box) {
+  if (!context.layout.logo()) return;
+  context.flow.pdf().FillBox(box, kWhite);
+  context.flow.pdf().DrawImage(*context.layout.logo(),
+                               {box.left_pt + kLogoEdge_pt, box.bottom_pt + kLogoEdge_pt,
+                                box.width_pt - 2 * kLogoEdge_pt, box.height_pt - 2 * kLogoEdge_pt});
+}
 
 // Lines of a text as a piece of their own.
 double TaggedText(PageFlow& flow, const PdfTag& tag, const TextStyle& style, PagePoint top_left,
@@ -30,26 +49,31 @@ Status DrawTitle(const ReportContext& context, const Json& block) {
   const TextStyle title{Face::kBold, 20, kWhite}, subtitle{Face::kRegular, 10.5, PaleAccent()};
   const Json& right = ListAt(block, "/right");
   const double right_pt = right.empty() ? 0 : 52 * kPointsPerMm;
-  const double left_pt = flow.width_pt() - right_pt - (right.empty() ? 0 : 12);
+  const PageBox logo = LogoBox(context);
+  const double x_pt = flow.left_pt() + (logo.width_pt > 0 ? logo.width_pt + kLogoGap_pt : 0);
+  const double left_pt = flow.right_pt() - x_pt - right_pt - (right.empty() ? 0 : 12);
   const std::string text = context.Fill(block, "text"), below = context.Fill(block, "subtitle");
   double right_height_pt = 0;
   const auto right_style = [&](std::size_t i) {
     return i == 0 ? TextStyle{Face::kBold, 11, kWhite} : TextStyle{Face::kRegular, 9, PaleAccent()};
   };
   for (std::size_t i = 0; i < right.size(); ++i)
-    right_height_pt += flow.TextHeight_pt(right_style(i), right_pt,
-                                          FillIn(right[i].get<std::string>(), context.results));
+    right_height_pt += flow.TextHeight_pt(
+        right_style(i), right_pt, context.layout.Fill(right[i].get<std::string>(), context.values));
   const double left_height_pt =
       flow.TextHeight_pt(title, left_pt, text) + 3 + flow.TextHeight_pt(subtitle, left_pt, below);
-  const double band_pt = std::max(left_height_pt, right_height_pt) + 40;
+  const double band_pt =
+      std::max(std::max(left_height_pt, right_height_pt) + 40, logo.height_pt + 32);
   flow.pdf().FillBox({0, kPageHeight_pt - band_pt, kPageWidth_pt, band_pt}, flow.look().accent);
+  DrawLogo(context, logo);
   double y_pt = kPageHeight_pt - 22;
-  y_pt -= TaggedText(flow, {"H1"}, title, {flow.left_pt(), y_pt}, left_pt, text) + 3;
-  TaggedText(flow, {"P"}, subtitle, {flow.left_pt(), y_pt}, left_pt, below);
+  y_pt -= TaggedText(flow, {"H1"}, title, {x_pt, y_pt}, left_pt, text) + 3;
+  TaggedText(flow, {"P"}, subtitle, {x_pt, y_pt}, left_pt, below);
   y_pt = kPageHeight_pt - 26;
   for (std::size_t i = 0; i < right.size(); ++i)
-    y_pt -= TaggedText(flow, {"P"}, right_style(i), {flow.right_pt() - right_pt, y_pt}, right_pt,
-                       FillIn(right[i].get<std::string>(), context.results), Align::kRight);
+    y_pt -=
+        TaggedText(flow, {"P"}, right_style(i), {flow.right_pt() - right_pt, y_pt}, right_pt,
+                   context.layout.Fill(right[i].get<std::string>(), context.values), Align::kRight);
   flow.MoveTo(kPageHeight_pt - band_pt - 16);
   return {};
 }
@@ -65,7 +89,7 @@ Status DrawVerdict(const ReportContext& context, const Json& block) {
   const std::string verdict = TextAt(context.results, "/verdict", "undecided");
   const auto& [symbol, word] =
       kBadges.count(verdict) ? kBadges.at(verdict) : kBadges.at("undecided");
-  const std::string text = std::string(symbol) + "  " + context.layout.Translate(word);
+  const std::string text = std::string(symbol) + "  " + context.layout.Say(word);
   TextStyle style{Face::kBold, 16, kWhite};
   const double width_pt = 46 * kPointsPerMm, height_pt = 34;
   while (flow.pdf().TextWidth_pt(style, text) > width_pt - 16 && style.size_pt > 6)
@@ -81,7 +105,7 @@ Status DrawVerdict(const ReportContext& context, const Json& block) {
         text, Align::kCenter);
   }
   DrawFacts(flow, context.Table(TextAt(block, "/table")), 1, flow.width_pt() - width_pt - 14,
-            [&](const std::string& name) { return context.layout.Translate(name); });
+            [](const std::string& name) { return name; });
   if (flow.pdf().PageCount() == page) flow.MoveTo(std::min(flow.y_pt(), top_pt - height_pt - 10));
   return {};
 }
@@ -89,8 +113,11 @@ Status DrawVerdict(const ReportContext& context, const Json& block) {
 Status DrawHeading(const ReportContext& context, const Json& block) {
   PageFlow& flow = context.flow;
   const int level = static_cast<int>(NumberAt(block, "/level").value_or(1));
-  const TextStyle style{Face::kBold, level == 1 ? 13.0 : 10.5, flow.look().accent};
-  const std::string text = context.Fill(block, "text");
+  const TextStyle style{Face::kBold, flow.look().Scaled_pt(level == 1 ? 13.0 : 10.5),
+                        flow.look().accent};
+  const std::string number =
+      level == 1 ? TextAt(context.values, "/section/" + TextAt(block, "/id")) : "";
+  const std::string text = number + (number.empty() ? "" : "  ") + context.Fill(block, "text");
   flow.Require(style.LineHeight_pt() + 70);  // not alone at the foot of a page
   flow.Advance(level == 1 ? 8 : 4);
   flow.pdf().AddBookmark(text, level, flow.y_pt() + 8);
@@ -130,11 +157,11 @@ Status DrawKeyValues(const ReportContext& context, const Json& block) {
   if (ListAt(table, "/rows").empty()) return {};
   if (EntryAt(block, "/show_title") != false) {
     flow.Require(50);
-    flow.Paragraph(flow.look().Strong(), context.layout.Translate(TextAt(table, "/title")));
+    flow.Paragraph(flow.look().Strong(), TextAt(table, "/title"));
     flow.Advance(2);
   }
   DrawFacts(flow, table, static_cast<int>(NumberAt(block, "/columns").value_or(1)), flow.width_pt(),
-            [&](const std::string& name) { return context.layout.Translate(name); });
+            [](const std::string& name) { return name; });
   return {};
 }
 
@@ -144,9 +171,8 @@ Status DrawTableBlock(const ReportContext& context, const Json& block) {
   TableStyle style;
   style.width_mm = NumberAt(block, "/width_mm").value_or(0);
   style.show_title = EntryAt(block, "/show_title") != false;
-  style.continued = context.layout.Translate("continued");
-  style.translate = [&](const std::string& name) { return context.layout.Translate(name); };
-  for (const Json& name : ListAt(block, "/mono")) style.mono.push_back(name.get<std::string>());
+  style.continued = context.layout.Say("continued");
+  for (const Json& name : ListAt(block, "/mono")) style.mono.push_back(context.layout.Say(name));
   DrawTable(context.flow, table, style);
   return {};
 }
@@ -156,7 +182,7 @@ std::string ChartWords(const ReportContext& context, const std::string& name,
                        const std::string& caption) {
   std::string words = name;
   std::replace(words.begin(), words.end(), '-', ' ');
-  return context.layout.Translate("Chart") + ": " + context.layout.Translate(words) +
+  return context.layout.Say("Chart") + ": " + context.layout.Say(words) +
          (caption.empty() ? "" : ". " + caption);
 }
 
@@ -207,14 +233,6 @@ Status DrawEndMark(const ReportContext& context, const Json& block) {
   return {};
 }
 
-bool IsWanted(const ReportContext& context, const Json& block) {
-  const auto measured = [&](const char* key) {
-    return EntryAt(context.results, "/measured/" + TextAt(block, std::string("/") + key)) == true;
-  };
-  if (block.contains("when") && !measured("when")) return false;
-  return !block.contains("unless") || !measured("unless");
-}
-
 // Shrinks a line a little until it fits beside the other one, then shortens it: page 1 has it in
 // full.
 void DrawFrameLine(PageFlow& flow, TextStyle style, double y_pt, const std::string& text,
@@ -237,7 +255,7 @@ Status DrawBlock(const ReportContext& context, const std::string& pointer, const
       {"page-break", StartNewPage}, {"end-mark", DrawEndMark}};
   const auto draw = kDraw.find(TextAt(block, "/type"));
   TELESTRAIN_CHECK(draw != kDraw.end(), "a checked layout has known blocks only: " + pointer);
-  if (!IsWanted(context, block)) return {};
+  if (!IsWanted(context.results, block)) return {};
   return draw->second(context, block);
 }
 
@@ -245,14 +263,14 @@ void DrawPageFrames(const ReportContext& context) {
   PageFlow& flow = context.flow;
   PdfDocument& pdf = flow.pdf();
   const Look& look = flow.look();
-  Json values = context.results;
+  Json values = context.values;
   values["pages"] = pdf.PageCount();
   const double header_pt = kPageHeight_pt - 15 * kPointsPerMm, footer_pt = 13 * kPointsPerMm;
   for (int page = 0; page < pdf.PageCount(); ++page) {
     pdf.SelectPage(page);
     values["page"] = page + 1;
     const auto text = [&](const char* key) {
-      return FillIn(TextAt(context.layout.json(), key), values);
+      return context.layout.Fill(TextAt(context.layout.json(), key), values);
     };
     pdf.BeginDecoration(Decoration::kPageFooter);
     pdf.DrawLine({flow.left_pt(), footer_pt + 12}, {flow.right_pt(), footer_pt + 12},

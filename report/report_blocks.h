@@ -13,11 +13,12 @@ namespace telestrain {
 struct ReportContext {
   std::filesystem::path folder;  // the results folder
   const ReportTemplate& layout;
-  const Json& results;  // results.json with {"file": {"results_sha256"}} added
+  const Json& results;  // results.json, its tables in the report's language
+  const Json& values;   // what the {{…}} of texts can name
   PageFlow& flow;
 
   std::string Fill(const Json& block, const char* key) const {
-    return FillIn(TextAt(block, std::string("/") + key), results);
+    return layout.Fill(TextAt(block, std::string("/") + key), values);
   }
   const Json& Table(const std::string& id) const {
     return FindBy(ListAt(results, "/tables"), "id", id);

@@ -10,6 +10,8 @@ namespace telestrain {
 // Draws the chart `name` of a layout into `box`; a chart without data says so in its place. Fails
 // (kBadInput) when residuals.csv is malformed.
 Status DrawChart(const ReportContext& context, const std::string& name, const PageBox& box);
+// What DrawChart can draw.
+std::vector<std::string> ChartNames();
 
 // The three charts of the calibration's residuals, from calibration.json and residuals.csv.
 Status DrawResidualField(const ReportContext& context, const PageBox& box);
@@ -31,11 +33,22 @@ Status DrawProjectionUncertaintyOfEverything(const ReportContext& context, const
 Status DrawPinholeRms(const ReportContext& context, const PageBox& box);
 Status DrawPinholeRuler(const ReportContext& context, const PageBox& box);
 
-// Length errors over the ruler's position along the pipe and over its depth, and the strain's error
-// over the gauges with the unloading states apart; from the tables "ruler" and "strain-states".
+// Length errors of all ruler images, over the ruler's position along the pipe and over its depth,
+// each with its U and the limits; from the table "ruler".
+Status DrawRulerErrors(const ReportContext& context, const PageBox& box);
 Status DrawRulerPositions(const ReportContext& context, const PageBox& box);
 Status DrawRulerDepths(const ReportContext& context, const PageBox& box);
+
+// From the table "strain-states": strain of every state, camera over gauges with the line 1 : 1 and
+// the regression, camera minus gauges over the states and over the gauges with the unloading states
+// apart.
+Status DrawStrainStates(const ReportContext& context, const PageBox& box);
+Status DrawStrainGauges(const ReportContext& context, const PageBox& box);
+Status DrawStrainErrors(const ReportContext& context, const PageBox& box);
 Status DrawStrainHysteresis(const ReportContext& context, const PageBox& box);
+
+// The components of every uncertainty budget as bars, from the table "budget".
+Status DrawBudgetBars(const ReportContext& context, const PageBox& box);
 
 // "no data" in the middle of an empty frame.
 void DrawNoData(const ReportContext& context, const PageBox& box);

@@ -1,39 +1,71 @@
 #pragma once
 
+#include <filesystem>
+#include <functional>
+#include <optional>
 #include <string>
 
 #include "base/result.h"
 #include "report/json_lookup.h"
+#include "report/page_flow.h"
+#include "report/rgb_image.h"
+#include "report/text_catalogue.h"
 
 namespace telestrain {
 
-// The layout of a report as its user wrote it: acceptance.json, schema "telestrain.template/1".
-// templates/README.md explains every key.
-//
-// Texts may hold {{…}}: JSON pointers into results.json, tried in turn, and at the end a text, as
-// in
-// "{{/document/number|/document/report_number|without number}}".
+// Which layout, in which language, from where.
+struct TemplateChoice {
+  std::filesystem::path folder;  // the user's own; empty: built-in templates only
+  std::string name = "acceptance";
+  std::string language = "en";
+};
+
+// The layout of a report (schema "telestrain.template/1") with its look and the texts of its
+// language. templates/README.md explains every key, templates/template.schema.json is what is
+// checked. A text of the page passes through `Say` or `Fill` on its way.
 class ReportTemplate {
  public:
-  // Checks everything a layout can get wrong before anything is drawn. Fails (kBadInput) with
-  // `name`, the JSON pointer of the entry, what was found, and the nearest known word.
+  // Checks everything a layout can get wrong before anything is drawn. Fails with kUsage (no such
+  // layout or language) or kBadInput: the file, the JSON pointer of the entry, what was found, and
+  // the nearest known word; a logo that is no picture, by its path.
+  static Result<ReportTemplate> Load(const TemplateChoice& choice);
+  // A layout in English that stands in no file; `name` is what errors call it.
   static Result<ReportTemplate> Parse(const std::string& name, const std::string& text);
-  // The layout that was compiled in.
-  static Result<ReportTemplate> BuiltIn();
 
   const Json& blocks() const { return json_["blocks"]; }
   const Json& json() const { return json_; }
-  // The user's wording for a text of results.json, or the text itself.
-  std::string Translate(const std::string& text) const;
+  const TextCatalogue& texts() const { return texts_; }
+  const Look& look() const { return look_; }
+  const std::optional<RgbImage>& logo() const { return logo_; }
+  double LogoHeight_mm() const { return NumberAt(json_, "/look/logo_height_mm").value_or(12); }
+
+  // A text, a cell or a Phrase of results.json in the report's language and the user's wording.
+  std::string Say(const Json& text_or_phrase) const { return texts_.SayPhrase(text_or_phrase); }
+  // A text of the layout in that language, with its {{…}} filled.
+  std::string Fill(const std::string& text, const Json& values) const;
+
+  // results.json with the tables in that language: titles, columns, units, cells.
+  Json SayTables(Json results) const;
+  // What the {{…}} of texts can name: results.json without its tables, sentences in that language,
+  // and beside it report.title, report.number ("without number" where there is none),
+  // report.revision and section.ID, the numbers of the headings that are drawn.
+  Json FillValues(const Json& results) const;
+
+  // Called for every wording that has no translation, as often as it is said.
+  void OnUntranslated(std::function<void(const std::string&)> call) {
+    texts_.on_untranslated = std::move(call);
+  }
 
  private:
+  Status ReadLook(const std::filesystem::path& folder);
+
   Json json_;
+  TextCatalogue texts_;
+  Look look_;
+  std::optional<RgbImage> logo_;
 };
 
-// `text` with its {{…}} replaced from `values`.
-std::string FillIn(const std::string& text, const Json& values);
-
-// The text of templates/acceptance.json, generated at build time.
-extern const char* const kBuiltInTemplate;
+// Whether a block's "when" and "unless" are met by what was measured.
+bool IsWanted(const Json& results, const Json& block);
 
 }  // namespace telestrain

@@ -112,7 +112,7 @@ Status DrawResidualField(const ReportContext& context, const PageBox& box) {
     const PageBox panel{box.left_pt + (i % columns) * (width_pt + gap_pt),
                         box.top_pt() - (i / columns) * (height_pt + gap_pt) - height_pt, width_pt,
                         height_pt};
-    DrawPanel(context.flow, panel, region, context.layout.Translate("View") + " " + name,
+    DrawPanel(context.flow, panel, region, context.layout.Say("View") + " " + name,
               CellMeans(residuals, name, region), kArrowKey_pt / *key_px);
   }
   const Look& look = context.flow.look();
@@ -140,7 +140,7 @@ Status DrawResidualHistogram(const ReportContext& context, const PageBox& box) {
   for (const Json& count : counts)
     highest = std::max(highest, count.is_number() ? count.get<double>() : 0);
   const double to_px = *from_px + *bin_px * static_cast<double>(counts.size());
-  const auto translate = [&](const char* text) { return context.layout.Translate(text); };
+  const auto translate = [&](const char* text) { return context.layout.Say(text); };
   Plot plot(context.flow, box, {translate("Residual of one coordinate / px"), *from_px, to_px},
             {translate("Count"), 0, 1.05 * std::max(highest, peak), true});
   const Look& look = context.flow.look();
@@ -177,7 +177,7 @@ Status DrawResidualScatter(const ReportContext& context, const PageBox& box) {
     context.flow.pdf().FillBox({at.x_pt - kDot_pt / 2, at.y_pt - kDot_pt / 2, kDot_pt, kDot_pt},
                                look.measured);
   }
-  plot.DrawLegend({{context.layout.Translate("corner residuals"), Marker::kDot, look.measured}});
+  plot.DrawLegend({{context.layout.Say("corner residuals"), Marker::kDot, look.measured}});
   return {};
 }
 

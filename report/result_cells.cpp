@@ -8,16 +8,6 @@
 
 namespace telestrain {
 
-Json Phrase(const std::string& pattern, const std::map<std::string, std::string>& values) {
-  std::string printed = pattern;
-  for (const auto& [name, value] : values) {
-    const std::string place = "{{" + name + "}}";
-    for (std::size_t at = 0; (at = printed.find(place, at)) != std::string::npos;
-         at += value.size())
-      printed.replace(at, place.size(), value);
-  }
-  return {{"printed", printed}, {"pattern", pattern}, {"values", values}};
-}
 namespace {
 
 Json NumberOrNull(std::optional<double> value) { return value ? Json(*value) : Json(nullptr); }
@@ -38,6 +28,11 @@ Json FixedCell(std::optional<double> value, int decimals) {
 Json SignificantCell(std::optional<double> value, int digits) {
   if (!value) return FixedCell({}, 0);
   return {{"value", *value}, {"printed", PrintSignificant(*value, digits)}};
+}
+
+Json UncertaintyCell(std::optional<double> uncertainty) {
+  if (!uncertainty) return FixedCell({}, 0);
+  return {{"value", *uncertainty}, {"printed", PrintUncertainty(*uncertainty)}};
 }
 
 Json ExactCell(std::optional<double> value) {
@@ -72,7 +67,7 @@ Json VerdictCell(Verdict verdict) {
 ResultTable::ResultTable(std::string id, std::string title, std::vector<ResultColumn> columns) {
   json_ = {{"id", std::move(id)}, {"title", std::move(title)}, {"columns", Json::array()}};
   for (const ResultColumn& column : columns)
-    json_["columns"].push_back({{"name", column.name}, {"unit", column.unit}});
+    json_["columns"].push_back(Json{{"name", column.name}, {"unit", column.unit}});
   json_["rows"] = Json::array();
 }
 
@@ -81,8 +76,14 @@ void ResultTable::AddRow(std::vector<Json> cells) {
   json_["rows"].push_back(std::move(cells));
 }
 
-void ResultTable::AddFact(const std::string& name, Json value, const std::string& unit) {
-  AddRow({name, std::move(value), unit});
+void ResultTable::LinkLastRow(const std::string& section) {
+  Json& links = json_["row_links"];
+  while (links.size() < json_["rows"].size()) links.push_back(nullptr);
+  links.back() = section;
+}
+
+void ResultTable::AddFact(Json name, Json value, const std::string& unit) {
+  AddRow({std::move(name), std::move(value), unit});
 }
 
 ResultTable FactTable(std::string id, std::string title) {
@@ -101,19 +102,35 @@ std::optional<Verdict> Acceptance::DecideQuantity(const Quantity& quantity) cons
   return Decide(*quantity.value, uncertainty, *quantity.limit, rule);
 }
 
+void ResultsDraft::AddPlain(const PlainResult& result, std::optional<double> value,
+                            std::optional<double> expanded_uncertainty) {
+  if (!value) return;
+  Quantity quantity;
+  quantity.id = result.id;
+  quantity.section = result.section;
+  quantity.label = result.label;
+  quantity.unit = result.unit;
+  quantity.value = value;
+  quantity.expanded_uncertainty = expanded_uncertainty;
+  quantity.decimals = result.decimals;
+  quantity.in_summary = false;
+  AddQuantity(std::move(quantity));
+}
+
 void ResultsDraft::AddQuantity(Quantity quantity) {
   if (!quantity.verdict) quantity.verdict = acceptance.DecideQuantity(quantity);
   quantities.push_back(std::move(quantity));
 }
 
-std::string DecisionWords(const Quantity& quantity, const Acceptance& acceptance) {
+Json DecisionWords(const Quantity& quantity, const Acceptance& acceptance) {
   constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
   const double uncertainty =
       quantity.expanded_uncertainty.value_or(quantity.has_uncertainty ? kMissing : 0);
   const bool decided = quantity.verdict.value_or(Verdict::kUndecided) != Verdict::kUndecided;
-  return DecideInWords(decided ? quantity.value.value_or(kMissing) : kMissing, uncertainty,
-                       quantity.limit.value_or(kMissing), acceptance.rule, quantity.unit)
-      .words;
+  const Decision decision =
+      DecideInWords(decided ? quantity.value.value_or(kMissing) : kMissing, uncertainty,
+                    quantity.limit.value_or(kMissing), acceptance.rule, quantity.unit);
+  return Phrase(decision.pattern, {decision.values.begin(), decision.values.end()});
 }
 
 Json QuantityJson(const Quantity& quantity, double coverage_factor) {

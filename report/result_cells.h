@@ -15,8 +15,18 @@ namespace telestrain {
 // Phrase.
 
 // A sentence with values in it, as {"printed", "pattern", "values"}. `pattern` is English with
-// {{name}}s and the key of its translation (templates/texts); `printed` is the English result.
-Json Phrase(const std::string& pattern, const std::map<std::string, std::string>& values);
+// {{name}}s and the key of its translation (templates/texts); `printed` is the English result. A
+// value is a text, or a Phrase, which is translated in its turn.
+Json Phrase(const std::string& pattern, const std::map<std::string, Json>& values);
+// The Phrase of a finished sentence of another module: every word with a digit in it is a value
+// ("v1", "v2", …; numbers, names of images and views), so that the pattern is the same for all
+// sentences of its kind. A sentence without such a word stays a plain text.
+Json PhraseOfText(const std::string& text);
+// Texts and Phrases one after the other as one Phrase; empty ones are left out. A plain "" when
+// none is left, the text itself when it is the only one.
+Json JoinPhrases(const std::vector<Json>& parts, const std::string& separator = " ");
+// What a text, a Phrase or a cell prints.
+std::string PrintedText(const Json& text);
 
 // Printed where a value does not exist.
 inline constexpr const char* kNoValue = "–";
@@ -25,6 +35,8 @@ inline constexpr const char* kNoValue = "–";
 Json FixedCell(std::optional<double> value, int decimals);
 // A number with `digits` significant digits, or kNoValue.
 Json SignificantCell(std::optional<double> value, int digits);
+// An uncertainty without its value beside it, rounded after the GUM, or kNoValue.
+Json UncertaintyCell(std::optional<double> uncertainty);
 // A given, not measured number: all its digits, or kNoValue.
 Json ExactCell(std::optional<double> value);
 // A whole number, or kNoValue.
@@ -43,7 +55,7 @@ ResultCellPair ResultCells(std::optional<double> value, std::optional<double> ex
 Json VerdictCell(Verdict verdict);
 
 struct ResultColumn {
-  std::string name;
+  Json name;  // a text or a Phrase
   std::string unit;
 };
 
@@ -52,8 +64,11 @@ class ResultTable {
  public:
   ResultTable(std::string id, std::string title, std::vector<ResultColumn> columns);
   void AddRow(std::vector<Json> cells);  // as many as there are columns
+  // The last row leads to this section of the report: "row_links" has one entry per row, null where
+  // none is set.
+  void LinkLastRow(const std::string& section);
   // For tables of the form name, value, unit.
-  void AddFact(const std::string& name, Json value, const std::string& unit = "");
+  void AddFact(Json name, Json value, const std::string& unit = "");
   bool empty() const { return json_["rows"].empty(); }
   Json TakeJson() { return std::move(json_); }
 
@@ -68,7 +83,7 @@ ResultTable FactTable(std::string id, std::string title);
 struct Quantity {
   std::string id;
   std::string section;
-  std::string label;
+  Json label;  // a text or a Phrase
   std::string unit;
   std::optional<double> value;
   std::optional<double> expanded_uncertainty;
@@ -80,8 +95,19 @@ struct Quantity {
   std::optional<Verdict> verdict;
   // A check of our own: it can fail the report, but to pass it accepts nothing.
   bool is_check = false;
-  int decimals = 3;        // when there is no uncertainty
-  bool in_summary = true;  // a row of the report's first table
+  int decimals = 3;             // when there is no uncertainty
+  bool in_summary = true;       // a row of the report's first table
+  bool is_drawing_aid = false;  // of a chart, no result
+};
+
+// A result without a limit that has its own place in the report, and is in the list of quantities
+// for those who compare reports.
+struct PlainResult {
+  const char* id;
+  const char* section;
+  const char* label;
+  const char* unit;
+  int decimals;  // when there is no uncertainty
 };
 
 // What the session wants decided, and how.
@@ -104,16 +130,19 @@ struct ResultsDraft {
   std::vector<Quantity> quantities;
   Json tables = Json::array();
   Json measured = Json::object();   // section -> bool
-  Json diagnosis = Json::object();  // sentences of the diagnosis, as printed
+  Json diagnosis = Json::object();  // sentences of the diagnosis, texts or Phrases
   Json sentences = Json::object();  // of the other sections
 
   void AddTable(ResultTable table) { tables.push_back(table.TakeJson()); }
+  // Adds it when it has a value.
+  void AddPlain(const PlainResult& result, std::optional<double> value,
+                std::optional<double> expanded_uncertainty);
   // Decides the quantity by its limit if it has no verdict yet.
   void AddQuantity(Quantity quantity);
 };
 
 // The verdict of a quantity with a limit in words, by its margin.
-std::string DecisionWords(const Quantity& quantity, const Acceptance& acceptance);
+Json DecisionWords(const Quantity& quantity, const Acceptance& acceptance);
 
 // The quantity as it stands in results.json.
 Json QuantityJson(const Quantity& quantity, double coverage_factor);

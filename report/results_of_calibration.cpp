@@ -29,6 +29,7 @@ void AddResidualArrow(double rms_px, ResultsDraft& draft) {
   arrow.value = power * (digit < 1.5 ? 1 : digit < 3.5 ? 2 : digit < 7.5 ? 5 : 10);
   arrow.decimals = std::max(0, static_cast<int>(-std::floor(std::log10(*arrow.value) + 1e-9)));
   arrow.in_summary = false;
+  arrow.is_drawing_aid = true;
   draft.AddQuantity(arrow);
 }
 
@@ -125,9 +126,10 @@ void AddRejectedByCalibration(const Json& calibration, const std::set<ImageAndVi
     const std::string image = TextAt(entry, "/image", "?"), view = TextAt(entry, "/view", kNoValue);
     const std::string reason = TextAt(entry, "/reason", "no reason given");
     if (EntryAt(entry, "/whole_board") == false)
-      corners.AddRow({image, view, CountCell(NumberAt(entry, "/corners")), reason});
+      corners.AddRow({image, view, CountCell(NumberAt(entry, "/corners")), PhraseOfText(reason)});
     else if (by_detector.count({image, view}) == 0)
-      boards.AddRow({image, view, "calibration: " + reason});
+      boards.AddRow(
+          {image, view, Phrase("calibration: {{reason}}", {{"reason", PhraseOfText(reason)}})});
   }
 }
 
@@ -155,8 +157,10 @@ void AddBoards(const Json& calibration, const Json& detection, ResultsDraft& dra
     sums[index][2] += NumberAt(board, "/corners").value_or(0);
     if (found) continue;
     by_detector.insert({TextAt(board, "/image", "?"), view});
-    rejected.AddRow({TextAt(board, "/image", "?"), view,
-                     "detection: " + TextAt(board, "/rejected_because", "no reason given")});
+    rejected.AddRow(
+        {TextAt(board, "/image", "?"), view,
+         Phrase("detection: {{reason}}", {{"reason", PhraseOfText(TextAt(board, "/rejected_because",
+                                                                         "no reason given"))}})});
   }
   for (std::size_t i = 0; i < views.size(); ++i)
     counts.AddRow({views[i], CountCell(sums[i][0]), CountCell(sums[i][1]), CountCell(sums[i][2])});
@@ -213,7 +217,7 @@ void AddModels(const Json& calibration, ResultsDraft& draft) {
   if (!tests.empty()) draft.AddTable(std::move(tests));
   ResultTable gauge("gauge", "Gauge: what was held fixed", {{"Statement", ""}});
   for (const Json& statement : ListAt(calibration, "/gauge"))
-    if (statement.is_string()) gauge.AddRow({statement});
+    if (statement.is_string()) gauge.AddRow({PhraseOfText(statement.get<std::string>())});
   if (!gauge.empty()) draft.AddTable(std::move(gauge));
 }
 

@@ -43,7 +43,7 @@ int DecimalsOf(double value) {
 Quantity QuantityOf(const Check& check, const Json& optimum, const Acceptance& acceptance) {
   Quantity quantity;
   quantity.id = check.id;
-  quantity.section = "calibration";
+  quantity.section = "diagnosis";
   quantity.label = check.label;
   quantity.unit = check.unit;
   quantity.limit_kind = "max";
@@ -63,9 +63,11 @@ void FailUnlessAgreed(const Json& optimum, std::vector<Quantity>& quantities) {
   for (const Quantity& quantity : quantities)
     if (quantity.verdict == Verdict::kFail) return;
   quantities.front().verdict = Verdict::kFail;
-  quantities.front().label += EntryAt(optimum, "/mrcal_converged") == false
-                                  ? " (mrcal did not converge)"
-                                  : " (mrcal.json says that they disagree)";
+  Json& label = quantities.front().label;
+  label = Phrase(EntryAt(optimum, "/mrcal_converged") == false
+                     ? "{{quantity}} (mrcal did not converge)"
+                     : "{{quantity}} (mrcal.json says that they disagree)",
+                 {{"quantity", label}});
 }
 
 void AddCheckTable(const std::vector<Quantity>& quantities, ResultsDraft& draft) {
@@ -105,16 +107,18 @@ void AddCheckFacts(const Json& optimum, ResultsDraft& draft) {
 }
 
 void AddNotChecked(const Json& optimum, ResultsDraft& draft) {
-  const std::string reason =
-      TextAt(optimum, "/missing_because", "mrcal.json gives neither a result nor a reason");
+  const Json reason = PhraseOfText(
+      TextAt(optimum, "/missing_because", "mrcal.json gives neither a result nor a reason"));
   Quantity quantity;
   quantity.id = kChecks.front().id;
-  quantity.section = "calibration";
-  quantity.label = std::string(kChecks.front().label) + " (not checked: " + reason + ")";
+  quantity.section = "diagnosis";
+  quantity.label = Phrase("{{quantity}} (not checked: {{reason}})",
+                          {{"quantity", kChecks.front().label}, {"reason", reason}});
   quantity.unit = kChecks.front().unit;
   quantity.limit_kind = "max";
   draft.AddQuantity(std::move(quantity));
-  draft.diagnosis["printed_mrcal"] = "Not checked against mrcal: " + reason + ".";
+  draft.diagnosis["printed_mrcal"] =
+      Phrase("Not checked against mrcal: {{reason}}.", {{"reason", reason}});
 }
 
 void AddOptimum(const Json& optimum, ResultsDraft& draft) {

@@ -7,14 +7,6 @@
 namespace telestrain {
 namespace {
 
-// "report_number" -> "Report number".
-std::string KeyAsLabel(std::string key) {
-  for (char& c : key)
-    if (c == '_') c = ' ';
-  if (!key.empty()) key[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(key[0])));
-  return key;
-}
-
 // Shown in the title band, so not repeated below it.
 bool StandsInTitle(const std::string& key) {
   static const std::set<std::string> kKeys = {"title", "number", "report_number", "revision"};
@@ -99,11 +91,19 @@ void AddFiles(const Json& inputs, const Json& strain, ResultsDraft& draft) {
       if (found != measured.end()) measured.erase(found);
     }
   }
-  for (const auto& [path, sha256] : measured) table.AddRow({path + " (watched)", kNoValue, sha256});
+  for (const auto& [path, sha256] : measured)
+    table.AddRow({Phrase("{{path}} (watched)", {{"path", path}}), kNoValue, sha256});
   draft.AddTable(std::move(table));
 }
 
 }  // namespace
+
+std::string KeyAsLabel(std::string key) {
+  for (char& c : key)
+    if (c == '_') c = ' ';
+  if (!key.empty()) key[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(key[0])));
+  return key;
+}
 
 void AddInputs(const Json& inputs, const Json& strain, ResultsDraft& draft) {
   AddDocument(inputs, draft);

@@ -18,11 +18,11 @@ void AddRareTerms(const Json& calibration, ResultTable& table) {
     const auto add = [&](const char* name, const char* pointer) {
       const auto bow_um = NumberAt(board, pointer);
       if (bow_um && *bow_um != 0)
-        table.AddFact("Bow of board " + TextAt(board, "/group", "?") + name, FixedCell(bow_um, 2),
+        table.AddFact(Phrase(name, {{"board", TextAt(board, "/group", "?")}}), FixedCell(bow_um, 2),
                       "µm");
     };
-    add(" along x", "/bow_x_um");
-    add(" along y", "/bow_y_um");
+    add("Bow of board {{board}} along x", "/bow_x_um");
+    add("Bow of board {{board}} along y", "/bow_y_um");
   }
 }
 
@@ -53,7 +53,7 @@ void AddDistortion(const Json& calibration, const Acceptance& acceptance, Result
     std::optional<double> expanded_ppm;
     if (const auto sigma = SigmaOf(calibration, key))
       expanded_ppm = acceptance.Expanded(kPpm * *sigma);
-    table.AddFact("Distortion " + std::string(key).substr(0, 2),
+    table.AddFact(Phrase("Distortion {{term}}", {{"term", std::string(key).substr(0, 2)}}),
                   UncertainCell(kPpm * *value, expanded_ppm, SignificantCell(kPpm * *value, 4)),
                   unit);
   }
@@ -67,6 +67,8 @@ void AddLens(const Json& calibration, ResultsDraft& draft) {
   if (const auto magnification = NumberAt(calibration, "/lens/magnification_px_per_mm")) {
     const auto expanded =
         draft.acceptance.Expanded(NumberAt(calibration, "/lens/sigma_magnification_px_per_mm"));
+    draft.AddPlain({"magnification", "calibration", "Magnification", "px/mm", 4}, magnification,
+                   expanded);
     table.AddFact("Magnification (U with the certificate of the pitch)",
                   UncertainCell(*magnification, expanded, FixedCell(magnification, 4)), "px/mm");
   }

@@ -49,10 +49,11 @@ std::optional<double> DistanceOf_m(const Json& arm) {
   return distance_mm ? std::optional<double>(kMetresPerMm * *distance_mm) : std::nullopt;
 }
 
-std::string StartsText(const Json& arm) {
+Json StartsText(const Json& arm) {
   const auto starts = NumberAt(arm, "/starts"), wrong = NumberAt(arm, "/wrong_minima");
   if (!starts || *starts == 0 || !wrong) return kNoValue;
-  return FormatFixed(*wrong, 0) + " of " + FormatFixed(*starts, 0);
+  return Phrase("{{wrong}} of {{starts}}",
+                {{"wrong", FormatFixed(*wrong, 0)}, {"starts", FormatFixed(*starts, 0)}});
 }
 
 // The columns stand in the order that pinhole_charts.cpp reads.
@@ -95,38 +96,49 @@ const Json& BestArm(const Json& pinhole, const char* pointer, bool plain_only) {
   return *best;
 }
 
-std::string NameOf(const Json& arm) {
+Json NameOf(const Json& arm) {
   const auto distance_m = DistanceOf_m(arm);
-  return (distance_m ? "D = " + FormatShortest(*distance_m) + " m" : "D unknown") +
-         (HasCoefficients(arm) ? ", five coefficients" : "");
+  const std::map<std::string, Json> values{
+      {"distance", distance_m ? FormatShortest(*distance_m) + " m" : "unknown"}};
+  return Phrase(HasCoefficients(arm) ? "D = {{distance}}, five coefficients" : "D = {{distance}}",
+                values);
 }
 
-std::string ReprojectionSentence(const Json& pinhole) {
+Json ReprojectionSentence(const Json& pinhole) {
   const Json& best = BestArm(pinhole, "/rms_px", true);
   const auto telecentric_px = NumberAt(pinhole, "/telecentric/rms_px");
   if (best.is_null() || !telecentric_px) return "The pinhole cameras could not be compared.";
   if (const auto from_mm = NumberAt(pinhole, "/as_good_from_mm"))
-    return "Reprojection: from D = " + FormatShortest(kMetresPerMm * *from_mm) +
-           " m on a pinhole without coefficients is as good as the telecentric model, within 1 % "
-           "of its RMS. Parallel rays are the limit of a distant pinhole: far enough away it is a "
-           "telecentric camera.";
-  return "Reprojection: no pinhole without coefficients comes within 1 % of the telecentric RMS "
-         "of " +
-         FormatFixed(*telecentric_px, 4) + " px; the best one (" + NameOf(best) + ") has " +
-         FormatFixed(*NumberAt(best, "/rms_px"), 4) +
-         " px. A distant pinhole is a telecentric camera, but each has a principal point of its "
-         "own, so none has the distortion of the one lens that all views share.";
+    return Phrase(
+        "Reprojection: from D = {{distance}} m on a pinhole without coefficients is as good as the "
+        "telecentric model, within 1 % of its RMS. Parallel rays are the limit of a distant "
+        "pinhole: far enough away it is a telecentric camera.",
+        {{"distance", FormatShortest(kMetresPerMm * *from_mm)}});
+  return Phrase(
+      "Reprojection: no pinhole without coefficients comes within 1 % of the telecentric RMS of "
+      "{{telecentric}} px; the best one ({{arm}}) has {{pinhole}} px. A distant pinhole is a "
+      "telecentric camera, but each has a principal point of its own, so none has the distortion "
+      "of the one lens that all views share.",
+      {{"telecentric", FormatFixed(*telecentric_px, 4)},
+       {"arm", NameOf(best)},
+       {"pinhole", FormatFixed(*NumberAt(best, "/rms_px"), 4)}});
 }
 
-std::string RulerSentence(const Json& pinhole, const RulerErrors& telecentric) {
+Json RulerSentence(const Json& pinhole, const RulerErrors& telecentric) {
   const Json& best = BestArm(pinhole, "/ruler_rmse_um", false);
   if (best.is_null() || !telecentric.rmse_um) return "";
   const double best_um = *NumberAt(best, "/ruler_rmse_um");
-  return " Ruler: the smallest RMSE of a pinhole is " + FormatFixed(best_um, 3) + " µm (" +
-         NameOf(best) + "), " + (best_um <= *telecentric.rmse_um ? "no larger than that" : "that") +
-         " of the telecentric model " + (best_um <= *telecentric.rmse_um ? "of " : "is ") +
-         FormatFixed(*telecentric.rmse_um, 3) + " µm, over " + FormatFixed(telecentric.count, 0) +
-         (telecentric.count == 1 ? " image." : " images.");
+  return Phrase(
+      best_um <= *telecentric.rmse_um
+          ? "Ruler: the smallest RMSE of a pinhole is {{pinhole}} µm ({{arm}}), no larger "
+            "than that of the telecentric model of {{telecentric}} µm; ruler images: "
+            "{{count}}."
+          : "Ruler: the smallest RMSE of a pinhole is {{pinhole}} µm ({{arm}}), that of "
+            "the telecentric model is {{telecentric}} µm; ruler images: {{count}}.",
+      {{"pinhole", FormatFixed(best_um, 3)},
+       {"arm", NameOf(best)},
+       {"telecentric", FormatFixed(*telecentric.rmse_um, 3)},
+       {"count", FormatFixed(telecentric.count, 0)}});
 }
 
 }  // namespace
@@ -134,15 +146,16 @@ std::string RulerSentence(const Json& pinhole, const RulerErrors& telecentric) {
 void AddPinhole(const Json& pinhole, const Json& ruler, ResultsDraft& draft) {
   draft.measured["pinhole"] = !ListAt(pinhole, "/arms").empty();
   if (draft.measured["pinhole"] == false) {
-    draft.diagnosis["printed_pinhole"] =
-        "Not compared with pinhole cameras: " +
-        TextAt(pinhole, "/missing_because", "mrcal.json gives neither a result nor a reason") + ".";
+    draft.diagnosis["printed_pinhole"] = Phrase(
+        "Not compared with pinhole cameras: {{reason}}.",
+        {{"reason", PhraseOfText(TextAt(pinhole, "/missing_because",
+                                        "mrcal.json gives neither a result nor a reason"))}});
     return;
   }
   const RulerErrors telecentric = ComparableErrors(pinhole, ruler);
   AddArms(pinhole, telecentric, draft);
   draft.diagnosis["printed_pinhole"] =
-      ReprojectionSentence(pinhole) + RulerSentence(pinhole, telecentric);
+      JoinPhrases({ReprojectionSentence(pinhole), RulerSentence(pinhole, telecentric)});
 }
 
 }  // namespace telestrain

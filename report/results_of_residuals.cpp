@@ -18,11 +18,12 @@ Json ProbabilityCell(std::optional<double> p) {
 }
 
 // What a probability says, when a small one speaks for `sign`.
-std::string PlainWords(std::optional<double> p, const std::string& sign) {
+Json PlainWords(std::optional<double> p, const char* sign) {
   if (!p) return "not tested";
-  if (*p >= kWeakSign) return "No sign of " + sign + ".";
-  if (*p >= kClearSign) return "A weak sign of " + sign + ", as chance alone may give.";
-  return "A clear sign of " + sign + ".";
+  const char* words = *p >= kWeakSign    ? "No sign of {{sign}}."
+                      : *p >= kClearSign ? "A weak sign of {{sign}}, as chance alone may give."
+                                         : "A clear sign of {{sign}}.";
+  return Phrase(words, {{"sign", sign}});
 }
 
 // The test of `list` with the smallest adjusted p, or null JSON.
@@ -34,34 +35,40 @@ const Json& Smallest(const Json& list) {
   return *smallest;
 }
 
-std::string PlaceOf(const Json& test) {
-  if (!test.is_object()) return "";
+// `statistic` and where it was found.
+Json AtPlace(const char* statistic, const Json& test) {
+  if (!test.is_object()) return statistic;
   const std::string over = TextAt(test, "/over");
-  return " (view " + TextAt(test, "/view", "?") + ", " + TextAt(test, "/component", "?") +
-         (over.empty() ? "" : ", " + over) + ")";
+  const std::map<std::string, Json> values{{"statistic", statistic},
+                                           {"view", TextAt(test, "/view", "?")},
+                                           {"component", TextAt(test, "/component", "?")},
+                                           {"over", over}};
+  return Phrase(over.empty() ? "{{statistic}} (view {{view}}, {{component}})"
+                             : "{{statistic}} (view {{view}}, {{component}}, {{over}})",
+                values);
 }
 
 void AddTests(const Json& residuals, ResultsDraft& draft) {
   const Json& tests = EntryAt(residuals, "/tests");
   ResultTable table("residual-tests", "Are the residuals noise?",
                     {{"Test", ""}, {"Statistic", ""}, {"Value", ""}, {"p", ""}, {"Says", ""}});
-  const auto add = [&](const char* test, const std::string& statistic, std::optional<double> value,
-                       std::optional<double> p, const std::string& words) {
+  const auto add = [&](const char* test, const Json& statistic, std::optional<double> value,
+                       std::optional<double> p, const Json& words) {
     table.AddRow({test, statistic, SignificantCell(value, 3), ProbabilityCell(p), words});
   };
   add("Size (chi-square)", "RMS over the corners' stated noise",
       NumberAt(tests, "/chi_square/sigma0"), NumberAt(tests, "/chi_square/p_value"),
-      TextAt(residuals, "/verdict/size", "not tested"));
+      PhraseOfText(TextAt(residuals, "/verdict/size", "not tested")));
   const auto normality_p = NumberAt(tests, "/normality/p_value");
   add("Normality (Anderson-Darling)", "A²", NumberAt(tests, "/normality/statistic"), normality_p,
       PlainWords(normality_p, "another distribution"));
   const Json& spatial = Smallest(ListAt(tests, "/spatial"));
   const auto spatial_p = NumberAt(tests, "/smallest_spatial_p");
-  add("Spatial (Moran's I)", "I, least probable" + PlaceOf(spatial), NumberAt(spatial, "/morans_i"),
+  add("Spatial (Moran's I)", AtPlace("I, least probable", spatial), NumberAt(spatial, "/morans_i"),
       spatial_p, PlainWords(spatial_p, "neighbours that err alike"));
   const Json& trend = Smallest(ListAt(tests, "/trends"));
   const auto trend_p = NumberAt(tests, "/smallest_trend_p");
-  add("Trend over the images", "change / px, least probable" + PlaceOf(trend),
+  add("Trend over the images", AtPlace("change / px, least probable", trend),
       NumberAt(trend, "/change_px"), trend_p, PlainWords(trend_p, "a drift"));
   add("Directions", "mean resultant, 1 for one direction",
       NumberAt(residuals, "/directions/mean_resultant"), {}, "Shown in the figure below.");
@@ -73,7 +80,8 @@ void AddFindings(const Json& verdict, ResultsDraft& draft) {
                     {{"In", ""}, {"Finding", ""}, {"Remedy", ""}, {"RMS", "px"}, {"p", ""}});
   const auto add = [&](const char* pointer, const char* in) {
     for (const Json& finding : ListAt(verdict, pointer))
-      table.AddRow({in, TextAt(finding, "/text", "?"), TextAt(finding, "/remedy", kNoValue),
+      table.AddRow({in, PhraseOfText(TextAt(finding, "/text", "?")),
+                    PhraseOfText(TextAt(finding, "/remedy", kNoValue)),
                     SignificantCell(NumberAt(finding, "/rms_px"), 2),
                     ProbabilityCell(NumberAt(finding, "/adjusted_p_value"))});
   };
@@ -139,9 +147,9 @@ void AddOutlierReplay(const Json& replay, ResultsDraft& draft) {
 
 void AddResidualDiagnosis(const Json& residuals, ResultsDraft& draft) {
   const Json& verdict = EntryAt(residuals, "/verdict");
-  const std::string size = TextAt(verdict, "/size");
   draft.diagnosis["printed_verdict"] =
-      TextAt(verdict, "/text", "No verdict on the residuals.") + (size.empty() ? "" : " " + size);
+      JoinPhrases({PhraseOfText(TextAt(verdict, "/text", "No verdict on the residuals.")),
+                   PhraseOfText(TextAt(verdict, "/size"))});
   if (!residuals.is_object()) return;
   AddTests(residuals, draft);
   AddFindings(verdict, draft);

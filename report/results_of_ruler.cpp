@@ -25,9 +25,18 @@ LengthError DecideImage(const Json& image, const Acceptance& acceptance) {
   error.quantity.has_uncertainty = true;
   error.quantity.limit = acceptance.ruler_mpe_um;
   error.quantity.decimals = 2;
-  error.quantity.label = "Length error E, worst image (" + TextAt(image, "/image", "?") + ")";
+  error.quantity.label =
+      Phrase("Length error E, worst image ({{image}})", {{"image", TextAt(image, "/image", "?")}});
   error.quantity.verdict = acceptance.DecideQuantity(error.quantity);
   return error;
+}
+
+// The length in mm, rounded by the U of its error, which is in um.
+Json LengthCell(const Json& image, const Quantity& error) {
+  const auto expanded_mm = error.expanded_uncertainty
+                               ? std::optional<double>(*error.expanded_uncertainty / 1000)
+                               : std::nullopt;
+  return ResultCells(NumberAt(image, "/length_mm"), expanded_mm, 5).value;
 }
 
 // `acceptance` holds where the ruler of this image was; null in results of older versions.
@@ -35,7 +44,7 @@ std::vector<Json> RulerRow(const Json& image, const Quantity& error, const Json&
   const ResultCellPair cells = ResultCells(error.value, error.expanded_uncertainty, error.decimals);
   const Json& where = FindBy(ListAt(acceptance, "/images"), "image", TextAt(image, "/image"));
   return {TextAt(image, "/image", "?"),
-          FixedCell(NumberAt(image, "/length_mm"), 5),
+          LengthCell(image, error),
           cells.value,
           cells.uncertainty,
           VerdictCell(error.verdict.value_or(Verdict::kUndecided)),
@@ -46,24 +55,28 @@ std::vector<Json> RulerRow(const Json& image, const Quantity& error, const Json&
           FixedCell(NumberAt(where, "/pitch_deg"), 2)};
 }
 
-void AddSummary(const Json& ruler, ResultsDraft& draft) {
+// What the section on bias and spread states with its U has the same places here. `largest`: the
+// image of the largest |E| + U.
+void AddSummary(const Json& ruler, const Quantity& largest, ResultsDraft& draft) {
+  const auto rounded = [&](const char* value, const char* expanded_uncertainty) {
+    return ResultCells(NumberAt(ruler, value), NumberAt(ruler, expanded_uncertainty), 3).value;
+  };
   ResultTable table = FactTable("ruler-summary", "Summary of the length errors");
   table.AddFact("Ruler length, certified", FixedCell(NumberAt(ruler, "/nominal_length_mm"), 5),
                 "mm");
   table.AddFact("Positions measured", CountCell(NumberAt(ruler, "/summary/count")));
-  table.AddFact("Mean error", FixedCell(NumberAt(ruler, "/summary/mean_error_um"), 3), "µm");
-  table.AddFact("Standard deviation", FixedCell(NumberAt(ruler, "/summary/sd_error_um"), 3), "µm");
-  table.AddFact("Largest |E|", FixedCell(NumberAt(ruler, "/summary/max_abs_error_um"), 3), "µm");
+  table.AddFact("Mean error",
+                rounded("/summary/mean_error_um", "/acceptance/bias_um/expanded_uncertainty"),
+                "µm");
+  table.AddFact("Standard deviation",
+                rounded("/summary/sd_error_um", "/acceptance/spread_um/expanded_uncertainty"),
+                "µm");
+  table.AddFact(
+      "Largest |E|",
+      ResultCells(NumberAt(ruler, "/summary/max_abs_error_um"), largest.expanded_uncertainty, 3)
+          .value,
+      "µm");
   draft.AddTable(std::move(table));
-}
-
-void AddBudget(const Json& ruler, ResultsDraft& draft) {
-  ResultTable table("ruler-budget", "Uncertainty budget of one length",
-                    {{"Source", ""}, {"Standard uncertainty", "µm"}});
-  for (const Json& entry : ListAt(ruler, "/budget"))
-    table.AddRow({TextAt(entry, "/source", "?"),
-                  SignificantCell(NumberAt(entry, "/standard_uncertainty_um"), 2)});
-  if (!table.empty()) draft.AddTable(std::move(table));
 }
 
 void AddRejected(const Json& ruler, ResultsDraft& draft) {
@@ -71,7 +84,8 @@ void AddRejected(const Json& ruler, ResultsDraft& draft) {
                     {{"Image", ""}, {"Reason", ""}});
   for (const Json& image : ListAt(ruler, "/images"))
     if (!NumberAt(image, "/error_um"))
-      table.AddRow({TextAt(image, "/image", "?"), TextAt(image, "/rejected_because", "no value")});
+      table.AddRow({TextAt(image, "/image", "?"),
+                    PhraseOfText(TextAt(image, "/rejected_because", "no value"))});
   if (!table.empty()) draft.AddTable(std::move(table));
 }
 
@@ -109,8 +123,7 @@ void AddRuler(const Json& ruler, ResultsDraft& draft) {
   AddRejected(ruler, draft);
   if (!found) return;
   draft.AddTable(std::move(table));
-  AddSummary(ruler, draft);
-  AddBudget(ruler, draft);
+  AddSummary(ruler, found->quantity, draft);
   AddRulerAcceptance(EntryAt(ruler, "/acceptance"), draft);
 }
 

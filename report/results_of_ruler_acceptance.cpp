@@ -40,6 +40,11 @@ void AddFacts(const Json& acceptance, ResultsDraft& draft) {
           UncertainCell(*value, NumberAt(estimate, "/expanded_uncertainty"), FixedCell(value, 3)),
           "µm");
   };
+  const auto number = [&](const char* pointer) { return NumberAt(acceptance, pointer); };
+  draft.AddPlain({"ruler_bias", "ruler", "Bias of the length error", "µm", 3},
+                 number("/bias_um/value"), number("/bias_um/expanded_uncertainty"));
+  draft.AddPlain({"ruler_spread", "ruler", "Spread of the length error", "µm", 3},
+                 number("/spread_um/value"), number("/spread_um/expanded_uncertainty"));
   add("Bias: mean of E, U with the certificates", "/bias_um");
   add("Spread: standard deviation of E", "/spread_um");
   table.AddFact("Spread that the image noise explains",
@@ -57,12 +62,13 @@ void AddRulerAcceptance(const Json& acceptance, ResultsDraft& draft) {
   if (!acceptance.is_object() || ListAt(acceptance, "/images").empty()) return;
   AddTrends(acceptance, draft);
   AddFacts(acceptance, draft);
-  draft.sentences["ruler_count"] = TextAt(acceptance, "/printed_count");
-  std::string note = TextAt(acceptance, "/repeatability/method");
-  if (!note.empty()) note = "Repeatability: " + note + ".";
+  draft.sentences["ruler_count"] = PhraseOfText(TextAt(acceptance, "/printed_count"));
+  std::vector<Json> notes;
+  if (const std::string method = TextAt(acceptance, "/repeatability/method"); !method.empty())
+    notes.push_back(Phrase("Repeatability: {{method}}.", {{"method", PhraseOfText(method)}}));
   for (const Json& missing : ListAt(acceptance, "/not_in_budget"))
-    if (missing.is_string()) note += " " + missing.get<std::string>();
-  draft.sentences["ruler_note"] = note;
+    if (missing.is_string()) notes.push_back(PhraseOfText(missing.get<std::string>()));
+  draft.sentences["ruler_note"] = JoinPhrases(notes);
 }
 
 }  // namespace telestrain

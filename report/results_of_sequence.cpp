@@ -33,6 +33,12 @@ void AddFloor(const Json& floor, const std::string& what, ResultTable& table) {
 void AddFacts(const Json& sequence, ResultsDraft& draft) {
   ResultTable table = FactTable("sequence", "Sequence: regression, drift, noise floors");
   const Json& regression = EntryAt(sequence, "/regression");
+  const auto number = [&](const char* pointer) { return NumberAt(regression, pointer); };
+  draft.AddPlain({"strain_slope", "strain", "Slope, camera over gauges", "", 4},
+                 number("/slope/value"), number("/slope/expanded_uncertainty"));
+  draft.AddPlain({"strain_bias", "strain", "Bias: mean of camera - gauges", "µε", 2},
+                 number("/bias_microstrain/value"),
+                 number("/bias_microstrain/expanded_uncertainty"));
   AddEstimate(EntryAt(regression, "/slope"), "Slope, camera over gauges", "", table);
   AddEstimate(EntryAt(regression, "/intercept_microstrain"), "Intercept", "µε", table);
   AddEstimate(EntryAt(regression, "/bias_microstrain"), "Bias: mean of camera - gauges", "µε",
@@ -90,7 +96,7 @@ void AddClasses(const Json& sequence, ResultsDraft& draft) {
                      {"Resolution", ""},
                      {"Its limit", ""},
                      {"Unit", ""}});
-  std::string not_covered;
+  std::vector<Json> not_covered;
   for (const char* pointer : {"/iso9513", "/astm_e83"}) {
     const Json& result = EntryAt(sequence, pointer);
     if (!result.is_object()) continue;
@@ -104,12 +110,12 @@ void AddClasses(const Json& sequence, ResultsDraft& draft) {
                   ExactCell(NumberAt(result, "/resolution_limit")), TextAt(result, "/unit", "?")});
     not_covered.clear();
     for (const Json& sentence : ListAt(result, "/not_covered"))
-      if (sentence.is_string())
-        not_covered += (not_covered.empty() ? "" : " ") + sentence.get<std::string>();
+      if (sentence.is_string()) not_covered.push_back(PhraseOfText(sentence.get<std::string>()));
   }
   if (table.empty()) return;
   draft.AddTable(std::move(table));
-  draft.sentences["class_note"] = "What the classes do not cover. " + not_covered;
+  not_covered.insert(not_covered.begin(), "What the classes do not cover.");
+  draft.sentences["class_note"] = JoinPhrases(not_covered);
 }
 
 void AddGaugeOutliers(const Json& strain, ResultsDraft& draft) {
@@ -135,7 +141,7 @@ void AddSequence(const Json& strain, ResultsDraft& draft) {
   AddCycles(sequence, draft);
   AddClasses(sequence, draft);
   AddGaugeOutliers(strain, draft);
-  draft.sentences["warm_up"] = TextAt(sequence, "/warm_up/printed");
+  draft.sentences["warm_up"] = PhraseOfText(TextAt(sequence, "/warm_up/printed"));
 }
 
 }  // namespace telestrain

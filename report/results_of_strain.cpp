@@ -1,13 +1,10 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "report/results_parts.h"
 
 namespace telestrain {
 namespace {
-
-constexpr double kDegreesPerRadian = 57.29577951308232;
 
 std::optional<double> Difference(std::optional<double> a, std::optional<double> b) {
   return a && b ? std::optional<double>(*a - *b) : std::nullopt;
@@ -20,6 +17,14 @@ std::optional<double> RejectedPoints(const Json& state) {
   for (const auto& [reason, number] : rejected.items())
     if (number.is_number()) count += number.get<double>();
   return count;
+}
+
+// The local strain of a patch, rounded by its own U, which is not printed.
+Json LocalCell(const Json& state, const char* value, const char* patch,
+               const Acceptance& acceptance) {
+  const auto sigma =
+      NumberAt(state, std::string("/local_standard_uncertainty_microstrain") + patch);
+  return ResultCells(NumberAt(state, value), acceptance.Expanded(sigma), 1).value;
 }
 
 void AddStates(const Json& strain, ResultsDraft& draft) {
@@ -51,10 +56,10 @@ void AddStates(const Json& strain, ResultsDraft& draft) {
     const ResultCellPair camera = ResultCells(axial, expanded, 1);
     table.AddRow({TextAt(state, "/image", "?"), TextAt(state, "/cycle", kNoValue),
                   TextAt(state, "/step", kNoValue), camera.value, camera.uncertainty,
-                  FixedCell(NumberAt(state, "/local_a_microstrain"), 1),
-                  FixedCell(NumberAt(state, "/local_b_microstrain"), 1), at_gauges.value,
+                  LocalCell(state, "/local_a_microstrain", "/0", draft.acceptance),
+                  LocalCell(state, "/local_b_microstrain", "/1", draft.acceptance), at_gauges.value,
                   at_gauges.uncertainty, FixedCell(gauge, 1),
-                  FixedCell(Difference(compared, gauge), 1),
+                  ResultCells(Difference(compared, gauge), compared_expanded, 1).value,
                   CountCell(NumberAt(state, "/points_used")), CountCell(RejectedPoints(state))});
   }
   draft.AddTable(std::move(table));
@@ -92,7 +97,8 @@ void AddBeam(const Json& strain, ResultsDraft& draft) {
 void AddReasons(const std::string& state, const Json& counts, ResultTable& table) {
   if (!counts.is_object()) return;
   for (const auto& [reason, number] : counts.items())
-    if (number.is_number()) table.AddRow({state, reason, CountCell(number.get<double>())});
+    if (number.is_number())
+      table.AddRow({state, PhraseOfText(reason), CountCell(number.get<double>())});
 }
 
 // The points lost when the reference image was matched, then all reasons over all states, so that
@@ -132,10 +138,11 @@ void AddComparison(const Json& strain, ResultsDraft& draft) {
   draft.AddQuantity(error);
   if (!has_gauges) return;
   draft.sentences["strain_uncertainty"] =
-      std::string(
-          "U of the strain error is the coverage factor times the RMS of the standard "
-          "uncertainties over the states compared: the camera's") +
-      (with_gauges ? " and the gauges'." : "; the gauges' own uncertainty is not included.");
+      with_gauges ? "U of the strain error is the coverage factor times the RMS of the standard "
+                    "uncertainties over the states compared: the camera's and the gauges'."
+                  : "U of the strain error is the coverage factor times the RMS of the standard "
+                    "uncertainties over the states compared: the camera's; the gauges' own "
+                    "uncertainty is not included.";
   ResultTable table = FactTable("strain-comparison", "Camera against gauges");
   const auto fixed = [&](const char* pointer, int decimals) {
     return FixedCell(NumberAt(comparison, pointer), decimals);
@@ -146,7 +153,11 @@ void AddComparison(const Json& strain, ResultsDraft& draft) {
   table.AddFact(
       with_gauges ? "U of the RMS error (camera and gauges)" : "U of the RMS error (camera only)",
       rms.uncertainty, "µε");
-  table.AddFact("Mean error", fixed("/mean_error_microstrain", 1), "µε");
+  const auto bias_u =
+      NumberAt(strain, "/sequence/regression/bias_microstrain/expanded_uncertainty");
+  table.AddFact("Mean error",
+                ResultCells(NumberAt(comparison, "/mean_error_microstrain"), bias_u, 1).value,
+                "µε");
   table.AddFact("Largest error", fixed("/max_abs_error_microstrain", 1), "µε");
   table.AddFact("Slope of the regression", fixed("/slope", 4));
   table.AddFact("Intercept of the regression", fixed("/intercept_microstrain", 1), "µε");
@@ -154,16 +165,19 @@ void AddComparison(const Json& strain, ResultsDraft& draft) {
 }
 
 // The diameter against the nominal one, and the form.
-void AddGeometry(const Json& geometry, const Acceptance& acceptance, ResultTable& table) {
+void AddGeometry(const Json& geometry, ResultsDraft& draft, ResultTable& table) {
   const auto diameter = NumberAt(geometry, "/diameter_mm");
   const auto sigma_um = NumberAt(geometry, "/standard_uncertainty_um");
   if (!diameter || !sigma_um) return;
-  table.AddFact(
-      "Outer diameter",
-      UncertainCell(*diameter, acceptance.Expanded(*sigma_um / 1000), FixedCell(diameter, 4)),
-      "mm");
-  table.AddFact("Deviation from the nominal diameter",
-                FixedCell(NumberAt(geometry, "/deviation_um"), 2), "µm");
+  const auto expanded_um = draft.acceptance.Expanded(*sigma_um),
+             expanded_mm = draft.acceptance.Expanded(*sigma_um / 1000);
+  draft.AddPlain({"pipe_diameter", "strain", "Outer diameter of the pipe", "mm", 4}, diameter,
+                 expanded_mm);
+  table.AddFact("Outer diameter", UncertainCell(*diameter, expanded_mm, FixedCell(diameter, 4)),
+                "mm");
+  if (const auto deviation_um = NumberAt(geometry, "/deviation_um"))
+    table.AddFact("Deviation from the nominal diameter",
+                  UncertainCell(*deviation_um, expanded_um, FixedCell(deviation_um, 2)), "µm");
   table.AddFact("Roundness, RMS", FixedCell(NumberAt(geometry, "/roundness_rms_um"), 2), "µm");
   table.AddFact("Roundness, peak to valley",
                 FixedCell(NumberAt(geometry, "/roundness_peak_to_valley_um"), 2), "µm");
@@ -176,7 +190,7 @@ void AddPipe(const Json& strain, ResultsDraft& draft) {
   ResultTable table = FactTable("pipe", "Pipe as measured");
   const Json& geometry = EntryAt(strain, "/geometry");
   if (geometry.is_object()) {
-    AddGeometry(geometry, draft.acceptance, table);
+    AddGeometry(geometry, draft, table);
   } else if (const auto diameter = NumberAt(strain, "/pipe/diameter_mm")) {
     const auto expanded = draft.acceptance.Expanded(NumberAt(strain, "/pipe/sigma_diameter_mm"));
     table.AddFact("Outer diameter (U of the fit)",
@@ -188,65 +202,9 @@ void AddPipe(const Json& strain, ResultsDraft& draft) {
   draft.AddTable(std::move(table));
 }
 
-void AddBudget(const Json& strain, ResultsDraft& draft) {
-  ResultTable table("strain-budget", "Uncertainty budget of one axial strain",
-                    {{"Source", ""}, {"Standard uncertainty", "µε"}});
-  for (const Json& entry : ListAt(strain, "/budget"))
-    table.AddRow({TextAt(entry, "/source", "?"),
-                  SignificantCell(NumberAt(entry, "/standard_uncertainty_microstrain"), 2)});
-  if (!table.empty()) draft.AddTable(std::move(table));
-}
-
-// The angle between the viewing directions of the first two views of `group`.
-std::optional<double> StereoAngle_deg(const Json& calibration, const std::string& group) {
-  std::vector<std::array<double, 3>> axes;
-  for (const Json& view : ListAt(calibration, "/views")) {
-    if (TextAt(view, "/group") != group) continue;
-    const auto x = NumberAt(view, "/axis_in_array/0"), y = NumberAt(view, "/axis_in_array/1"),
-               z = NumberAt(view, "/axis_in_array/2");
-    if (x && y && z) axes.push_back({*x, *y, *z});
-  }
-  if (axes.size() < 2) return {};
-  double dot = 0;
-  for (int i = 0; i < 3; ++i) dot += axes[0][i] * axes[1][i];
-  return kDegreesPerRadian * std::acos(std::clamp(dot, -1.0, 1.0));
-}
-
-void AddStereoAngles(const Json& calibration, ResultTable& table) {
-  std::vector<std::string> groups;
-  for (const Json& view : ListAt(calibration, "/views")) {
-    const std::string group = TextAt(view, "/group");
-    if (std::find(groups.begin(), groups.end(), group) == groups.end()) groups.push_back(group);
-  }
-  for (const std::string& group : groups)
-    if (const auto angle = StereoAngle_deg(calibration, group))
-      table.AddFact("Stereo angle, group " + group, FixedCell(angle, 2), "°");
-}
-
-// The reporting table of the iDICs good practices guide.
-void AddCorrelation(const Json& strain, const Json& calibration, ResultsDraft& draft) {
-  ResultTable table = FactTable("correlation", "Correlation settings (iDICs reporting table)");
-  const auto number = [&](const char* pointer) { return ExactCell(NumberAt(strain, pointer)); };
-  table.AddFact("Subset", number("/options/subset_px"), "px");
-  table.AddFact("Step", number("/options/step_px"), "px");
-  table.AddFact("Shape function", TextAt(strain, "/options/shape_function", kNoValue));
-  table.AddFact("Interpolant", TextAt(strain, "/options/interpolant", kNoValue));
-  table.AddFact("Criterion", TextAt(strain, "/options/criterion", kNoValue));
-  table.AddFact("Prefilter, Gaussian sigma", number("/options/prefilter_sigma_px"), "px");
-  table.AddFact("Virtual strain gauge",
-                FixedCell(NumberAt(strain, "/options/virtual_strain_gauge_mm"), 2), "mm");
-  if (!calibration.is_null()) {
-    table.AddFact("Image scale",
-                  SignificantCell(NumberAt(calibration, "/lens/magnification_px_per_mm"), 6),
-                  "px/mm");
-    AddStereoAngles(calibration, table);
-  }
-  draft.AddTable(std::move(table));
-}
-
 }  // namespace
 
-void AddStrain(const Json& strain, const Json& calibration, ResultsDraft& draft) {
+void AddStrain(const Json& strain, ResultsDraft& draft) {
   const bool measured = !ListAt(strain, "/states").empty();
   draft.measured["strain"] = measured;
   AddComparison(strain, draft);
@@ -256,8 +214,6 @@ void AddStrain(const Json& strain, const Json& calibration, ResultsDraft& draft)
   AddBeam(strain, draft);
   AddRejectedPoints(strain, draft);
   AddPipe(strain, draft);
-  AddBudget(strain, draft);
-  AddCorrelation(strain, calibration, draft);
   AddSequence(strain, draft);
 }
 

@@ -15,41 +15,52 @@ constexpr double kMostPixels = 1e8;
 
 // a, b, c: left, above, above left; the predictor of PNG filter type 4.
 int Paeth(int a, int b, int c) {
-  const int p = a + b - c;
-  const int pa = std::abs(p - a), pb = std::abs(p - b), pc = std::abs(p - c);
-  if (pa <= pb && pa <= pc) return a;
-  return pb <= pc ? b : c;
+  const int pa = std::abs(b - c), pb = std::abs(a - c), pc = std::abs(a + b - 2 * c);
+  const int other = pb <= pc ? b : c;
+  return pa <= pb && pa <= pc ? a : other;
 }
 
-int Predict(int filter, int left, int above, int above_left) {
-  switch (filter) {
-    case 1:
-      return left;
-    case 2:
-      return above;
-    case 3:
-      return (left + above) / 2;
-    case 4:
-      return Paeth(left, above, above_left);
-    default:
-      return 0;
-  }
-}
+// A row with a pixel of zeros before it, so that the first pixel has a left neighbour too.
+using PaddedRow = std::vector<unsigned char>;
 
-// Filters one row into `out`; returns the sum of absolute differences.
-long FilterRow(int filter, const unsigned char* row, const unsigned char* above, std::size_t bytes,
-               std::string& out) {
-  out.assign(1, static_cast<char>(filter));
-  long sum = 0;
-  for (std::size_t i = 0; i < bytes; ++i) {
-    const int left = i >= kBytesPerPixel ? row[i - kBytesPerPixel] : 0;
-    const int up = above ? above[i] : 0;
-    const int up_left = above && i >= kBytesPerPixel ? above[i - kBytesPerPixel] : 0;
-    const auto difference = static_cast<signed char>(row[i] - Predict(filter, left, up, up_left));
-    sum += std::abs(difference);
-    out.push_back(static_cast<char>(difference));
+// Filters one row into `out`, behind its filter byte; returns the sum of absolute differences.
+// `predict` takes left, above and above left. One loop without branches per filter: the compiler
+// makes vectors of them, and half the time of a picture goes here.
+template <class Predictor>
+int FilterRow(int filter, const PaddedRow& row, const PaddedRow& above, Predictor predict,
+              std::string& out) {
+  out.resize(row.size() - kBytesPerPixel + 1);
+  out[0] = static_cast<char>(filter);
+  const unsigned char* here = row.data() + kBytesPerPixel;
+  const unsigned char* up = above.data() + kBytesPerPixel;
+  char* differences = out.data() + 1;
+  int sum = 0;
+  for (std::size_t i = 0; i < row.size() - kBytesPerPixel; ++i) {
+    const int predicted = predict(here[i - kBytesPerPixel], up[i], up[i - kBytesPerPixel]);
+    const auto difference = static_cast<signed char>(here[i] - predicted);
+    differences[i] = static_cast<char>(difference);
+    sum += difference < 0 ? -difference : difference;
   }
   return sum;
+}
+
+int FilterRow(int filter, const PaddedRow& row, const PaddedRow& above, std::string& out) {
+  switch (filter) {
+    case 1:
+      return FilterRow(
+          1, row, above, [](int left, int, int) { return left; }, out);
+    case 2:
+      return FilterRow(
+          2, row, above, [](int, int up, int) { return up; }, out);
+    case 3:
+      return FilterRow(
+          3, row, above, [](int left, int up, int) { return (left + up) / 2; }, out);
+    case 4:
+      return FilterRow(4, row, above, Paeth, out);
+    default:
+      return FilterRow(
+          0, row, above, [](int, int, int) { return 0; }, out);
+  }
 }
 
 }  // namespace
@@ -83,12 +94,14 @@ std::string PredictRows(const RgbImage& image) {
   std::string all;
   all.reserve((bytes + 1) * static_cast<std::size_t>(image.height_px));
   std::string best, candidate;
+  PaddedRow row(bytes + kBytesPerPixel), above(bytes + kBytesPerPixel);
   for (int y = 0; y < image.height_px; ++y) {
-    const unsigned char* row = image.pixels.data() + bytes * static_cast<std::size_t>(y);
-    const unsigned char* above = y > 0 ? row - bytes : nullptr;
-    long best_sum = FilterRow(0, row, above, bytes, best);
+    row.swap(above);
+    std::memcpy(row.data() + kBytesPerPixel,
+                image.pixels.data() + bytes * static_cast<std::size_t>(y), bytes);
+    int best_sum = FilterRow(0, row, above, best);
     for (int filter = 1; filter <= 4; ++filter) {
-      const long sum = FilterRow(filter, row, above, bytes, candidate);
+      const int sum = FilterRow(filter, row, above, candidate);
       if (sum >= best_sum) continue;
       best_sum = sum;
       best.swap(candidate);

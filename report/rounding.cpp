@@ -13,8 +13,9 @@ namespace {
 constexpr int kUncertaintyDigits = 2;
 constexpr int kMostDecimals = 15;
 
+// The tiny factor keeps log10 of an exact power of ten from falling below its integer.
 int DecimalExponent(double value) {
-  return static_cast<int>(std::floor(std::log10(std::abs(value))));
+  return static_cast<int>(std::floor(std::log10(std::abs(value) * (1 + 1e-12))));
 }
 
 // Rounds to `decimals` places, which may be negative (tens, hundreds, ...).
@@ -23,12 +24,11 @@ double RoundToDecimals(double value, int decimals) {
   return decimals >= 0 ? std::round(value * scale) / scale : std::round(value / scale) * scale;
 }
 
-// Rounding up may add a digit (0.0996 -> 0.100), so the place is found from the rounded value. The
-// tiny factor keeps log10 of an exact power of ten from falling below its integer.
-int DecimalsForUncertainty(double uncertainty) {
-  const int first = kUncertaintyDigits - 1 - DecimalExponent(uncertainty);
-  return kUncertaintyDigits - 1 -
-         DecimalExponent(RoundToDecimals(uncertainty, first) * (1 + 1e-12));
+// The place of the last of `digits` significant digits. Rounding up may add a digit
+// (0.0996 -> 0.100), so it is found from the rounded value.
+int DecimalsFor(double value, int digits) {
+  const int first = digits - 1 - DecimalExponent(value);
+  return digits - 1 - DecimalExponent(RoundToDecimals(value, first));
 }
 
 std::string PrintRounded(double value, int decimals) {
@@ -41,14 +41,18 @@ std::string PrintRounded(double value, int decimals) {
 PrintedResult PrintWithUncertainty(double value, double expanded_uncertainty) {
   TELESTRAIN_CHECK(std::isfinite(expanded_uncertainty) && expanded_uncertainty > 0,
                    "an uncertainty is finite and positive");
-  const int decimals = DecimalsForUncertainty(expanded_uncertainty);
+  const int decimals = DecimalsFor(expanded_uncertainty, kUncertaintyDigits);
   return {PrintRounded(value, decimals), PrintRounded(expanded_uncertainty, decimals)};
+}
+
+std::string PrintUncertainty(double uncertainty) {
+  return PrintSignificant(uncertainty, kUncertaintyDigits);
 }
 
 std::string PrintSignificant(double value, int digits) {
   if (value == 0) return FormatFixed(0, digits - 1);
   const int exponent = DecimalExponent(value);
-  if (exponent >= -4 && exponent < 7) return PrintRounded(value, digits - 1 - exponent);
+  if (exponent >= -4 && exponent < 7) return PrintRounded(value, DecimalsFor(value, digits));
   char buffer[64];
   const auto format = std::chars_format::scientific;
   const auto end = std::to_chars(buffer, buffer + sizeof buffer, value, format, digits - 1).ptr;

@@ -16,6 +16,9 @@ struct PrintedResult {
 // "4570" and "120". `expanded_uncertainty` is finite and > 0 (a broken contract otherwise).
 PrintedResult PrintWithUncertainty(double value, double expanded_uncertainty);
 
+// An uncertainty that stands alone: two significant digits. 0.0996 gives "0.10".
+std::string PrintUncertainty(double uncertainty);
+
 // `digits` significant digits, in exponent form below 0.0001 and from 1e7 on: "0.1235",
 // "-1.20e-06".
 std::string PrintSignificant(double value, int digits);

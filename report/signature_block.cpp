@@ -28,7 +28,7 @@ class SignatureBoxes {
     const PagePoint line{box.left_pt + kInset_pt, line_pt};
     flow_.pdf().DrawLine(line, {line.x_pt + inner_pt, line_pt}, {look_.muted, 0.5});
     const double name_pt = DrawWords(NameStyle(), {line.x_pt, box.top_pt() - 6}, inner_pt,
-                                     context_.layout.Translate(role));
+                                     context_.layout.Say(role));
     AddField(role, {line.x_pt, line_pt + 1, inner_pt, box.top_pt() - 6 - name_pt - line_pt - 2});
     DrawWords(NoteStyle(), {line.x_pt, line_pt - 3}, inner_pt, note_);
   }
@@ -39,9 +39,9 @@ class SignatureBoxes {
     const double half_pt = box.width_pt / 2 - kInset_pt;
     const PagePoint at{box.left_pt + kInset_pt, box.top_pt() - 6};
     const double name_pt =
-        DrawWords(NameStyle(), at, half_pt, context_.layout.Translate(kInstrument));
+        DrawWords(NameStyle(), at, half_pt, context_.layout.Say(kInstrument));
     DrawWords(NoteStyle(), {at.x_pt, at.y_pt - name_pt}, half_pt,
-              context_.layout.Translate("Seal of the instrument"));
+              context_.layout.Say("Seal of the instrument"));
     AddField(kInstrument,
              {box.left_pt + box.width_pt / 2, box.bottom_pt + 2, half_pt, box.height_pt - 4});
   }
@@ -59,7 +59,7 @@ class SignatureBoxes {
   }
   void AddField(const std::string& role, const PageBox& box) {
     const std::string tip =
-        context_.layout.Translate("Digital signature") + ": " + context_.layout.Translate(role);
+        context_.layout.Say("Digital signature") + ": " + context_.layout.Say(role);
     flow_.pdf().AddSignatureField(FieldName(role), tip, box);
   }
 

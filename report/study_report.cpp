@@ -20,10 +20,10 @@ constexpr double kHeadingRoom_pt = 34;
 // Title and frames of the pages; what stands between is drawn below.
 constexpr const char* kLayout = R"({
   "schema": "telestrain.template/1",
-  "title": "{{/title}}",
-  "header": {"left": "{{/title}}", "right": "Study {{/study}}"},
-  "footer": {"left": "telestrain study {{/study}}", "right": "Page {{/page}} of {{/pages}}"},
-  "blocks": [{"type": "title", "text": "{{/title}}", "subtitle": "Study {{/study}}"}]})";
+  "title": "{{title}}",
+  "header": {"left": "{{title}}", "right": "Study {{study}}"},
+  "footer": {"left": "telestrain study {{study}}", "right": "Page {{page}} of {{pages}}"},
+  "blocks": [{"type": "title", "text": "{{title}}", "subtitle": "Study {{study}}"}]})";
 
 // A text as a cell; what is missing is a dash.
 Json TextCell(const Json& row, const char* key) {
@@ -212,7 +212,9 @@ Status WriteStudyReport(const std::filesystem::path& study_json, const std::file
   TELESTRAIN_ASSIGN_OR_RETURN(const auto document, PdfDocument::Create());
   PageFlow flow(*document, Look{});
   flow.StartPage();
-  const ReportContext context{study_json.parent_path(), layout, study.json, flow};
+  const Json values = {{"title", TextAt(study.json, "/title")},
+                       {"study", TextAt(study.json, "/study")}};
+  const ReportContext context{study_json.parent_path(), layout, study.json, values, flow};
   TELESTRAIN_RETURN_IF_ERROR(StudyDrawing(context, study).Draw(images));
   PdfInfo info;
   info.title = TextAt(study.json, "/title");

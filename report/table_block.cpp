@@ -28,6 +28,7 @@ class TableDrawing {
  public:
   TableDrawing(PageFlow& flow, const Json& table, const TableStyle& style)
       : flow_(flow), pdf_(flow.pdf()), table_(table), style_(style) {
+    type_pt_ = flow.look().Scaled_pt(kLargestType_pt);
     width_pt_ = style.width_mm > 0 ? style.width_mm * kPointsPerMm : flow.width_pt();
     ReadColumns();
     ChooseWidths();
@@ -58,7 +59,7 @@ class TableDrawing {
   const Json& table_;
   const TableStyle& style_;
   std::vector<Column> columns_;
-  double type_pt_ = kLargestType_pt;
+  double type_pt_ = 0;
   double width_pt_ = 0;
   int rows_on_page_ = 0;
 };
@@ -105,7 +106,8 @@ void TableDrawing::Measure() {
       const Json& cell = row[i];
       const TextStyle style = CellStyle(column, cell);
       const double text_pt = pdf_.TextWidth_pt(style, CellText(cell));
-      const bool breakable = cell.is_string() && !column.mono && text_pt > kUnbroken_pt;
+      const bool is_text = cell.is_string() || (cell.is_object() && cell.contains("pattern"));
+      const bool breakable = is_text && !column.mono && text_pt > kUnbroken_pt;
       column.natural_pt = std::max(column.natural_pt, text_pt);
       column.least_pt = std::max(column.least_pt,
                                  breakable ? WidestWord_pt(pdf_, style, CellText(cell)) : text_pt);

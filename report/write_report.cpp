@@ -13,13 +13,6 @@ namespace {
 
 constexpr long long kSecondsPerDay = 86400;
 
-Result<ReportTemplate> LoadTemplate(const std::filesystem::path& folder) {
-  if (folder.empty()) return ReportTemplate::BuiltIn();
-  const auto path = folder / "acceptance.json";
-  TELESTRAIN_ASSIGN_OR_RETURN(const std::string text, ReadFile(path));
-  return ReportTemplate::Parse(path.string(), text);
-}
-
 std::string TwoDigits(long long value) {
   return std::string(value < 10 ? "0" : "") + std::to_string(value);
 }
@@ -69,10 +62,11 @@ std::string CreationDate(const Json& results) {
              : "";
 }
 
-PdfInfo InfoOf(const ReportTemplate& layout, const Json& results) {
+PdfInfo InfoOf(const ReportTemplate& layout, const Json& results, const Json& values) {
   PdfInfo info;
-  info.title = FillIn(TextAt(layout.json(), "/title", "Acceptance report"), results);
-  info.author = FillIn(TextAt(layout.json(), "/author"), results);
+  info.title = TextAt(values, "/report/title") + " " + TextAt(values, "/report/number");
+  info.author = layout.Fill(TextAt(layout.json(), "/author"), values);
+  info.language = layout.texts().language();
   info.subject = TextAt(results, "/title");
   info.creator = TextAt(results, "/inputs/program/name", "telestrain") + " " +
                  TextAt(results, "/inputs/program/version");
@@ -85,25 +79,32 @@ PdfInfo InfoOf(const ReportTemplate& layout, const Json& results) {
 Status WriteReport(const std::filesystem::path& results, const ReportOptions& options) {
   std::error_code code;  // an older report must not stand beside newer results
   std::filesystem::remove(results / "report.pdf", code);
-  TELESTRAIN_ASSIGN_OR_RETURN(const ReportTemplate layout, LoadTemplate(options.templates));
+  TELESTRAIN_ASSIGN_OR_RETURN(
+      ReportTemplate layout,
+      ReportTemplate::Load({options.templates, options.name, options.language}));
+  layout.OnUntranslated(options.on_untranslated);
   const auto path = results / "results.json";
-  TELESTRAIN_ASSIGN_OR_RETURN(Json values,
+  TELESTRAIN_ASSIGN_OR_RETURN(const Json read,
                               ReadJson(path, "telestrain.results/1", "telestrain report"));
   TELESTRAIN_ASSIGN_OR_RETURN(const std::string bytes, ReadFile(path));
+  Json values = layout.FillValues(read);
   values["file"] = {{"results_sha256", Sha256Hex(bytes)}};
   TELESTRAIN_ASSIGN_OR_RETURN(std::vector<PdfAttachment> attachments, ReportAttachments(results));
-  values["tables"].push_back(AttachmentsTable(attachments));
+  Json extended = read;
+  extended["tables"].push_back(AttachmentsTable(attachments));
+  const Json said = layout.SayTables(std::move(extended));
   TELESTRAIN_ASSIGN_OR_RETURN(const auto pdf, PdfDocument::Create(options.level));
-  PageFlow flow(*pdf, Look{});
+  PageFlow flow(*pdf, layout.look());
   flow.StartPage();
-  const ReportContext context{results, layout, values, flow};
+  const ReportContext context{results, layout, said, values, flow};
   for (std::size_t i = 0; i < layout.blocks().size(); ++i)
     TELESTRAIN_RETURN_IF_ERROR(
         DrawBlock(context, "/blocks/" + std::to_string(i), layout.blocks()[i]));
   DrawPageFrames(context);
   for (PdfAttachment& attachment : attachments) pdf->Attach(std::move(attachment));
-  TELESTRAIN_ASSIGN_OR_RETURN(const std::string file,
-                              pdf->Save(InfoOf(layout, values), bytes + layout.json().dump()));
+  TELESTRAIN_ASSIGN_OR_RETURN(
+      const std::string file,
+      pdf->Save(InfoOf(layout, read, values), bytes + layout.json().dump() + options.language));
   return WriteFileAtomically(results / "report.pdf", file);
 }
 

@@ -1,15 +1,13 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <map>
-#include <set>
 
 #include "app/command.h"
+#include "app/export_certificate.h"
+#include "app/export_files.h"
 #include "app/results_folder.h"
 #include "app/step_record.h"
-#include "base/files.h"
-#include "base/numbers.h"
 #include "diagnostics/interchange.h"
-#include "viz/export/paraview.h"
 #include "viz/export/scene_files.h"
 #include "viz/scene_from_results.h"
 
@@ -18,13 +16,14 @@
 //   export     A1.cameramodel A2.cameramodel B1.cameramodel B2.cameramodel corners.vnl opencv.yaml in FOLDER
 // telestrain export RESULTS --out FOLDER --format glb,paraview,stl,ply
 //   export     scene.glb pipe.stl pipe.ply scene.vtm (198 pieces below scene) in FOLDER
+// telestrain export RESULTS --dcc certificate.xml --dcc-schema dcc-3.3.0
+//   export     certificate.xml, valid against dcc.xsd in dcc-3.3.0
 // clang-format on
 
 namespace telestrain {
 namespace {
 
 namespace fs = std::filesystem;
-using NamedFiles = std::vector<std::pair<std::string, std::string>>;
 
 const std::map<std::string, viz::SceneFormat> kSceneFormats = {
     {"glb", viz::SceneFormat::kGlb},
@@ -36,14 +35,19 @@ class ExportCommand : public Command {
  public:
   std::string Name() const override { return "export"; }
   std::string Summary() const override {
-    return "write the calibration for mrcal and OpenCV, or the scene for 3-D programs";
+    return "write the calibration for mrcal and OpenCV, the scene for 3-D programs, or the DCC";
   }
   std::string Example() const override {
     return "telestrain export results --out scene --format glb,paraview --state 3";
   }
   void AddOptions(CLI::App& app) override {
     app.add_option("RESULTS", results_, "results folder of a calibration")->required();
-    app.add_option("--out", out_, "folder for the files; made when it does not exist")->required();
+    app.add_option("--out", out_,
+                   "folder for the files; made when it does not exist. Needed without --dcc");
+    app.add_option("--dcc", certificate_,
+                   "file for the digital calibration certificate (DCC 3.3.0) of results.json");
+    app.add_option("--dcc-schema", schema_,
+                   "folder with dcc.xsd and its catalog.xml, to check the certificate against");
     app.add_option("--format", formats_,
                    "one or more, separated by commas. calibration: .cameramodel and corners.vnl "
                    "for mrcal, opencv.yaml. glb: scene.glb (glTF 2.0). paraview: scene.vtm with "
@@ -62,10 +66,16 @@ class ExportCommand : public Command {
   }
   Result<int> Run(Console& console) override {
     TELESTRAIN_RETURN_IF_ERROR(CheckOptions());
+    if (!certificate_.empty()) TELESTRAIN_RETURN_IF_ERROR(WriteCertificate(console));
+    if (out_.empty()) return 0;
     NamedFiles files;
     if (Wants("calibration")) TELESTRAIN_RETURN_IF_ERROR(AddCalibration(&files));
     TELESTRAIN_RETURN_IF_ERROR(AddScene(&files));
-    return Write(files, console);
+    TELESTRAIN_ASSIGN_OR_RETURN(const std::string names,
+                                WriteExportedFiles(out_, files, Wants("paraview")));
+    console.Say("export     " + names + "in " + out_);
+    TELESTRAIN_RETURN_IF_ERROR(Record(files));
+    return 0;
   }
 
  private:
@@ -73,7 +83,18 @@ class ExportCommand : public Command {
     return std::find(formats_.begin(), formats_.end(), format) != formats_.end();
   }
 
+  Status WriteCertificate(Console& console) const {
+    TELESTRAIN_RETURN_IF_ERROR(ExportCertificate(results_, certificate_, schema_));
+    const std::string checked = schema_.empty() ? "" : ", valid against dcc.xsd in " + schema_;
+    console.Say("export     " + certificate_ + checked);
+    return {};
+  }
+
   Status CheckOptions() const {
+    if (out_.empty() && certificate_.empty())
+      return Error{ErrorKind::kUsage, "nothing to write: give --out FOLDER or --dcc FILE"};
+    if (!schema_.empty() && certificate_.empty())
+      return Error{ErrorKind::kUsage, "--dcc-schema checks the certificate of --dcc FILE only"};
     std::error_code unreadable;
     if (fs::equivalent(results_, out_, unreadable))
       return BadInput("--out " + out_ +
@@ -110,41 +131,6 @@ class ExportCommand : public Command {
     return {};
   }
 
-  // An earlier export of more boards or states left pieces that the new index does not name.
-  Status RemoveOldPieces(const NamedFiles& files) const {
-    std::set<std::string> old;
-    std::error_code code;
-    for (fs::directory_iterator entry(fs::path(out_) / "scene", code), end; !code && entry != end;
-         entry.increment(code))
-      if (const std::string name = entry->path().filename().string(); viz::IsParaViewPiece(name))
-        old.insert("scene/" + name);
-    for (const auto& [name, bytes] : files) old.erase(name);
-    for (const std::string& name : old)
-      if (const fs::path path = fs::path(out_) / name; !fs::remove(path, code) && code)
-        return OutputFailed(path.string() + ": an old piece cannot be removed: " + code.message() +
-                            "; remove it by hand or choose another --out folder");
-    return {};
-  }
-
-  // All bytes are there before the first is written.
-  Result<int> Write(const NamedFiles& files, Console& console) const {
-    std::string names;
-    std::size_t pieces = 0;
-    TELESTRAIN_RETURN_IF_ERROR(EnsureFolder(out_));
-    for (const auto& [name, bytes] : files) {
-      const fs::path path = fs::path(out_) / name;
-      const bool piece = name.starts_with("scene/");
-      if (piece && pieces++ == 0) TELESTRAIN_RETURN_IF_ERROR(EnsureFolder(path.parent_path()));
-      TELESTRAIN_RETURN_IF_ERROR(WriteFileAtomically(path, bytes));
-      if (!piece) names += name + " ";
-    }
-    if (Wants("paraview")) TELESTRAIN_RETURN_IF_ERROR(RemoveOldPieces(files));
-    if (pieces > 0) names += "(" + CountText(pieces, "piece") + " below scene) ";
-    console.Say("export     " + names + "in " + out_);
-    TELESTRAIN_RETURN_IF_ERROR(Record(files));
-    return 0;
-  }
-
   Status Record(const NamedFiles& files) const {
     StepRecord record = SceneRecord("export", results_);
     for (const char* name : {"corners.vnl", "corner_covariances.csv", "detection.json"})
@@ -156,7 +142,7 @@ class ExportCommand : public Command {
     return RecordStep(results_, record);
   }
 
-  std::string results_, out_, quantity_, state_ = "largest";
+  std::string results_, out_, certificate_, schema_, quantity_, state_ = "largest";
   std::vector<std::string> formats_ = {"calibration"};
 };
 

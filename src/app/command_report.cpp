@@ -2,10 +2,21 @@
 
 #include "app/command.h"
 #include "app/steps.h"
+#include "report/template_list.h"
 
 // telestrain report RESULTS
 //   report     /data/results/report.pdf
 //   verdict    pass
+// telestrain report --list
+//   layouts
+//     acceptance      Acceptance report
+//     calibration     Calibration report
+//     reverification  Re-verification report
+//     strain          Strain measurement report
+//   languages
+//     de              Deutsch
+//     en              English
+//     zh              中文
 
 namespace telestrain {
 namespace {
@@ -14,18 +25,58 @@ class ReportCommand : public Command {
  public:
   std::string Name() const override { return "report"; }
   std::string Summary() const override {
-    return "decide the limits and write results.json and the PDF acceptance report";
+    return "decide the limits and write results.json and the PDF report";
   }
-  std::string Example() const override { return "telestrain report results"; }
+  std::string Example() const override {
+    return "telestrain report results\n"
+           "  telestrain report results --template calibration --language de\n"
+           "  telestrain report results --template reverification --against last_year/report.pdf";
+  }
   void AddOptions(CLI::App& app) override {
-    app.add_option("RESULTS", results_, "results folder of the earlier steps")->required();
+    app.add_option("RESULTS", results_, "results folder of the earlier steps");
+    app.add_option("--template", choices_.layout,
+                   "layout: acceptance, calibration, reverification, strain, or one of your own")
+        ->capture_default_str();
+    app.add_option("--language", choices_.language, "language of the texts: en, de, zh")
+        ->capture_default_str();
     app.add_option("--templates", templates_,
-                   "folder with your own acceptance.json (layout and texts of the report)");
+                   "folder with your own layouts and texts; what it lacks is built in");
+    app.add_option("--against", against_,
+                   "earlier results folder or report.pdf that a re-verification compares with");
+    app.add_option("--archive-level", level_,
+                   "PDF/A level: 3a (tagged, with attachments and signature fields) or 1b")
+        ->capture_default_str()
+        ->check(CLI::IsMember({"3a", "1b"}));
+    app.add_flag("--list", list_, "name the layouts and languages and do nothing else");
   }
-  Result<int> Run(Console& console) override { return ReportStep(results_, templates_, console); }
+  Result<int> Run(Console& console) override {
+    if (list_) return List(console);
+    if (results_.empty())
+      return Error{ErrorKind::kUsage, "report: name the results folder, or ask with --list"};
+    choices_.templates = templates_;
+    choices_.against = against_;
+    choices_.level = level_ == "1b" ? ArchiveLevel::k1b : ArchiveLevel::k3a;
+    return ReportStep(results_, choices_, console);
+  }
 
  private:
-  std::string results_, templates_;
+  Result<int> List(Console& console) const {
+    TELESTRAIN_ASSIGN_OR_RETURN(const TemplateList list, ListTemplates(templates_));
+    const auto say = [&](const char* heading, const std::vector<NamedTemplate>& names) {
+      console.Say(heading);
+      for (const NamedTemplate& name : names) {
+        const std::size_t gap = name.name.size() < 16 ? 16 - name.name.size() : 1;
+        console.Say("  " + name.name + std::string(gap, ' ') + name.title);
+      }
+    };
+    say("layouts", list.layouts);
+    say("languages", list.languages);
+    return 0;
+  }
+
+  ReportChoices choices_;
+  std::string results_, templates_, against_, level_ = "3a";
+  bool list_ = false;
 };
 
 }  // namespace

@@ -27,8 +27,12 @@ class SimulateCommand : public Command {
     app.add_option("--truth", truth_, "file for the truth [--out with -truth.json]");
     for (const VirtualExperimentOptionInfo& info : VirtualExperimentOptionTable())
       std::visit([&](auto member) { AddOption(app, info, options_.*member); }, info.member);
+    app.add_option("--document", document_,
+                   "KEY=TEXT: an entry of [document] in session.toml, as date=2026-01-31; may be "
+                   "repeated");
   }
   Result<int> Run(Console& console) override {
+    TELESTRAIN_RETURN_IF_ERROR(ReadDocument());
     std::filesystem::path folder = std::filesystem::path(out_).lexically_normal();
     if (!folder.has_filename()) folder = folder.parent_path();
     const std::filesystem::path truth = truth_.empty()
@@ -54,8 +58,23 @@ class SimulateCommand : public Command {
     app.add_option(flag, value, help)->capture_default_str();
   }
 
+  Status ReadDocument() {
+    for (const std::string& entry : document_) {
+      const std::size_t end = entry.find('=');
+      const std::string key = entry.substr(0, end);
+      if (end == std::string::npos || key.empty() ||
+          key.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_") != std::string::npos)
+        return Error{ErrorKind::kUsage, "--document '" + entry +
+                                            "': KEY=TEXT is wanted, with a key of small letters, "
+                                            "digits and underscores"};
+      options_.document[key] = entry.substr(end + 1);
+    }
+    return {};
+  }
+
   VirtualExperimentOptions options_;
   std::string out_, truth_;
+  std::vector<std::string> document_;
 };
 
 }  // namespace

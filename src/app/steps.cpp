@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "app/results_folder.h"
 #include "app/step_record.h"
@@ -10,7 +11,7 @@
 #include "base/numbers.h"
 #include "calibration/calibration_file.h"
 #include "measurement/ruler_acceptance.h"
-#include "report/acceptance_report.h"
+#include "report/template_list.h"
 #include "target/corner_import.h"
 #include "viz/picture_set.h"
 
@@ -29,8 +30,9 @@ Status SayWhy(const fs::path& results, Console& console) {
     for (const auto& quantity : json.at("quantities")) {
       const auto text = [&](const char* key) {
         const auto at = quantity.find(key);
-        return at != quantity.end() && at->is_string() ? at->template get<std::string>()
-                                                       : std::string("-");
+        if (at == quantity.end()) return std::string("-");
+        const auto& entry = at->is_object() ? at->at("printed") : *at;  // a Phrase
+        return entry.is_string() ? entry.template get<std::string>() : std::string("-");
       };
       if (quantity.at("limit").is_null() || text("verdict") == "pass") continue;
       console.Say("  " + text("label") + ": " + text("printed") + " " + text("unit") + " (U " +
@@ -41,6 +43,21 @@ Status SayWhy(const fs::path& results, Console& console) {
     return BadInput((results / "results.json").string() + ": " + e.what());
   }
   return {};
+}
+
+// What the layout says of the report's content, with the earlier results that it needs.
+Result<ReportScope> ScopeOf(const ReportOptions& options, const fs::path& against) {
+  TELESTRAIN_ASSIGN_OR_RETURN(LayoutScope layout, ScopeOfLayout(options));
+  if (layout.against_earlier && against.empty())
+    return Error{ErrorKind::kUsage,
+                 "the report '" + options.name +
+                     "' compares with an earlier one; name its results folder or its report.pdf "
+                     "with --against EARLIER"};
+  if (!layout.against_earlier && !against.empty())
+    return Error{ErrorKind::kUsage, "--against: the report '" + options.name +
+                                        "' shows no comparison; use --template reverification"};
+  layout.scope.earlier = against;
+  return layout.scope;
 }
 
 std::vector<fs::path> IfGiven(const fs::path& path) {
@@ -73,7 +90,9 @@ StepRecord VerifyRecord() {
 }
 
 // Recorded before the report is written, which carries the trail up to here.
-StepRecord ResultsRecord(const Json& options) {
+StepRecord ResultsRecord(const Json& options, const fs::path& against) {
+  std::error_code code;
+  const fs::path earlier = fs::is_directory(against, code) ? against / "results.json" : against;
   return {"results",
           options,
           {},
@@ -198,22 +217,34 @@ Status VerifyStep(const Session& session, const fs::path& results, Console& cons
   return RecordStep(results, VerifyRecord());
 }
 
-Result<int> ReportStep(const fs::path& results, const fs::path& templates, Console& console) {
+Result<int> ReportStep(const fs::path& results, const ReportChoices& choices, Console& console) {
   TELESTRAIN_RETURN_IF_ERROR(RequireConsistent(results, Step::kReport));
   std::error_code code;
   if (!fs::exists(results / "calibration.json", code))
     return BadInput((results / "calibration.json").string() +
                     ": does not exist; run 'telestrain calibrate' first");
+  std::set<std::string> untranslated;
+  const ReportOptions options{choices.templates, choices.layout, choices.language, choices.level,
+                              [&](const std::string& text) { untranslated.insert(text); }};
+  // A wrong layout must be known before an older report goes.
+  TELESTRAIN_ASSIGN_OR_RETURN(const ReportScope scope, ScopeOf(options, choices.against));
   TELESTRAIN_RETURN_IF_ERROR(RemoveOutputsFrom(results, Step::kReport));
-  TELESTRAIN_ASSIGN_OR_RETURN(const Outcome outcome, MakeResults(results));
-  const Json recorded{{"templates", templates.string()}};
-  TELESTRAIN_RETURN_IF_ERROR(RecordStep(results, ResultsRecord(recorded)));
-  TELESTRAIN_RETURN_IF_ERROR(
-      WriteReport(results, {templates, "acceptance", "en", ArchiveLevel::k3a}));
+  TELESTRAIN_ASSIGN_OR_RETURN(const Outcome outcome, MakeResults(results, scope));
+  Json recorded{{"template", choices.layout},
+                {"templates", choices.templates.string()},
+                {"against", choices.against.string()}};
+  TELESTRAIN_RETURN_IF_ERROR(RecordStep(results, ResultsRecord(recorded, choices.against)));
+  TELESTRAIN_RETURN_IF_ERROR(WriteReport(results, options));
+  recorded["language"] = choices.language;
+  recorded["archive-level"] = choices.level == ArchiveLevel::k1b ? "1b" : "3a";
   TELESTRAIN_RETURN_IF_ERROR(RecordStep(results, ReportRecord(results, recorded)));
   console.Say("report     " +
               fs::absolute(results / "report.pdf", code).lexically_normal().string());
   console.Say("verdict    " + outcome.verdict);
+  if (!untranslated.empty())
+    console.Note("  printed in English for want of a translation: " +
+                 CountText(untranslated.size(), "text") + ", the first is '" +
+                 *untranslated.begin() + "'");
   TELESTRAIN_RETURN_IF_ERROR(SayWhy(results, console));
   return outcome.accepted ? 0 : 1;
 }

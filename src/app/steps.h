@@ -9,6 +9,7 @@
 #include "base/console.h"
 #include "base/result.h"
 #include "calibration/calibrate.h"
+#include "report/acceptance_report.h"
 #include "session/session.h"
 #include "viz/render.h"
 
@@ -78,9 +79,16 @@ Status RenderStep(const std::filesystem::path& results, Console& console);
 // file and nothing else goes but a report that shows it.
 Status RenderStep(const std::filesystem::path& results, const RenderOptions& options,
                   const std::filesystem::path& out, Console& console);
-// Writes results.json and report.pdf, with the layout in `templates` when that is not empty. The
-// value is the exit code of the verdict.
-Result<int> ReportStep(const std::filesystem::path& results, const std::filesystem::path& templates,
+// How `report` works beside its defaults.
+struct ReportChoices {
+  std::filesystem::path templates;  // the user's own; empty: built-in ones only
+  std::string layout = "acceptance", language = "en";
+  std::filesystem::path against;  // an earlier results folder or report.pdf; empty: none
+  ArchiveLevel level = ArchiveLevel::k3a;
+};
+// Writes results.json and report.pdf. The value is the exit code of the verdict. Fails with kUsage
+// (no such layout or language; a layout that compares without `against`, or the other way round).
+Result<int> ReportStep(const std::filesystem::path& results, const ReportChoices& choices,
                        Console& console);
 
 }  // namespace telestrain

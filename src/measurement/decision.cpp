@@ -16,6 +16,22 @@ std::string TwoDigits(double value, double size) {
   return FormatFixed(value, std::clamp(decimals, 0, 9));
 }
 
+// `room`: how far the value stays below its limit.
+std::string DoubtPattern(double room) {
+  const std::string start = "in doubt: {{margin}} over the guard band; ";
+  if (room == 0) return start + "on the limit, no uncertainty decides it";
+  return start + "repeat with U of {{needed}} or less to " + (room > 0 ? "pass" : "fail");
+}
+
+std::string Filled(std::string pattern, const std::map<std::string, std::string>& values) {
+  for (const auto& [name, value] : values) {
+    const std::string place = "{{" + name + "}}";
+    const std::size_t at = pattern.find(place);
+    if (at != std::string::npos) pattern.replace(at, place.size(), value);
+  }
+  return pattern;
+}
+
 }  // namespace
 
 int Severity(Verdict verdict) {
@@ -53,26 +69,28 @@ Decision DecideInWords(double value, double expanded_uncertainty, double limit, 
   };
   switch (decision.verdict) {
     case Verdict::kUndecided:
-      decision.words = "not decided: value, uncertainty or limit is missing";
+      decision.pattern = "not decided: value, uncertainty or limit is missing";
       break;
     case Verdict::kPass:
       decision.margin = room - u;
-      decision.words = "passes with " + text(decision.margin) + " to spare";
+      decision.pattern = "passes with {{margin}} to spare";
+      decision.values["margin"] = text(decision.margin);
       break;
     case Verdict::kFail:
       decision.margin = room + u;
-      decision.words = "fails: " + text(-decision.margin) + " outside";
+      decision.pattern = "fails: {{margin}} outside";
+      decision.values["margin"] = text(-decision.margin);
       break;
     case Verdict::kDoubt:
       decision.margin = room - u;
-      decision.words = "in doubt: " + text(-decision.margin) + " over the guard band; ";
-      decision.words += room == 0 ? "on the limit, no uncertainty decides it"
-                                  : "repeat with U of " + text(std::abs(room)) +
-                                        (room > 0 ? " or less to pass" : " or less to fail");
+      decision.pattern = DoubtPattern(room);
+      decision.values["margin"] = text(-decision.margin);
+      if (room != 0) decision.values["needed"] = text(std::abs(room));
       break;
   }
   if (u > 0 && (decision.verdict == Verdict::kPass || decision.verdict == Verdict::kFail))
-    decision.words += " beyond U";
+    decision.pattern += " beyond U";
+  decision.words = Filled(decision.pattern, decision.values);
   return decision;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,9 @@ struct Decision {
   // "passes with 3.2 µm to spare beyond U", "in doubt: 0.4 µm over the guard band; repeat with U
   // of 1.1 µm or less to pass", "fails: 1.2 µm outside beyond U", "not decided: …".
   std::string words;
+  // The same sentence for a translator: its {{margin}} and {{needed}} stand in `values`.
+  std::string pattern;
+  std::map<std::string, std::string> values;
 };
 
 // Decide() and what it means; `unit` is only printed. Figures have two significant digits of the

@@ -97,11 +97,20 @@ AcceptanceSpec NominalAcceptance(const VirtualExperimentOptions& options) {
 }
 
 std::map<std::string, std::string> NominalDocument(const VirtualExperimentOptions& options) {
-  return {{"report_number", std::string("VE-").append(std::to_string(options.seed))},
-          {"revision", "1"},
-          {"item", "Virtual telecentric four-view array"},
-          {"operator", "telestrain simulate"},
-          {"environment", "Simulated, 20 °C"}};
+  std::map<std::string, std::string> document = {
+      {"report_number", std::string("VE-").append(std::to_string(options.seed))},
+      {"revision", "1"},
+      {"laboratory", "Virtual laboratory"},
+      {"customer", "None: a virtual experiment"},
+      {"item", "Virtual telecentric four-view array"},
+      {"condition", "As simulated"},
+      {"place", "None: simulated images"},
+      {"operator", "telestrain simulate"},
+      {"environment", "Simulated, 20 °C"},
+      {"target_certificate", "None: simulated target"},
+      {"ruler_certificate", "None: simulated ruler"}};
+  for (const auto& [key, text] : options.document) document[key] = text;
+  return document;
 }
 
 }  // namespace

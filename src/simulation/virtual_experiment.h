@@ -2,7 +2,9 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <span>
+#include <string>
 #include <variant>
 
 #include "base/console.h"
@@ -73,6 +75,8 @@ struct VirtualExperimentOptions {
   bool gauges = true;
   bool mirrors = false;
   int threads = 0;
+
+  std::map<std::string, std::string> document;  // entries of [document] beside those it makes up
 };
 
 // One option as the command line, the check and the help page see it.

@@ -44,6 +44,7 @@ TEST(Usage, AMissingArgumentIsNamed) {
 TEST(Usage, AnOptionOutsideItsRangeIsAnErrorWithTheRange) {
   ExpectUsageError({"simulate", "--out", "session", "--noise-gray", "99"}, "0 to 20 gray");
   ExpectUsageError({"simulate", "--out", "session", "--binning", "two"}, "--binning");
+  ExpectUsageError({"simulate", "--out", "session", "--document", "date"}, "KEY=TEXT");
   EXPECT_FALSE(std::filesystem::exists("session"));
 }
 

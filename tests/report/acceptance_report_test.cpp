@@ -260,8 +260,9 @@ TEST_F(AcceptanceReport, AnotherTemplateChangesTheReport) {
   const auto templates = folder_ / "templates";
   std::filesystem::create_directories(templates);
   std::ofstream(templates / "acceptance.json")
-      << R"({"schema": "telestrain.template/1", "labels": {"Limit": "Grenzwert"}, "blocks": [
-             {"type": "heading", "text": "Abnahme {{/document/number}}"},
+      << R"({"schema": "telestrain.template/1", "title": "Abnahme",
+             "labels": {"Limit": "Grenzwert"}, "blocks": [
+             {"type": "heading", "text": "Abnahme {{document.number}}"},
              {"type": "table", "table": "summary"}]})";
   ASSERT_TRUE(WriteReport(folder_, OptionsOf(templates)));
   NEEDS_TOOL(TELESTRAIN_TOOL_PDFTOTEXT, "pdftotext");
@@ -272,11 +273,10 @@ TEST_F(AcceptanceReport, AnotherTemplateChangesTheReport) {
 TEST_F(AcceptanceReport, ErrorsLeaveNoFile) {
   Make();
   const auto templates = folder_ / "templates";
-  ExpectFailure(WriteReport(folder_, OptionsOf(templates)), ErrorKind::kBadInput,
-                "acceptance.json");
+  ExpectFailure(WriteReport(folder_, OptionsOf(templates)), ErrorKind::kBadInput, "is no folder");
   std::filesystem::create_directories(templates);
   std::ofstream(templates / "acceptance.json")
-      << R"({"schema": "telestrain.template/1", "blocks": [{"type": "picture"}]})";
+      << R"({"schema": "telestrain.template/1", "title": "t", "blocks": [{"type": "picture"}]})";
   ExpectFailure(WriteReport(folder_, OptionsOf(templates)), ErrorKind::kBadInput, "/blocks/0");
 
   std::ofstream(folder_ / "pictures" / "array.png", std::ios::trunc) << "no picture";

@@ -43,7 +43,7 @@ TEST_F(DiagnosisReport, ShowsEveryChart) {
   NEEDS_TOOL(TELESTRAIN_TOOL_PDFTOTEXT, "pdftotext");
   const std::string text = TextOfReport();
   for (const char* wanted :
-       {"3 Diagnosis of the calibration", "Residual of one coordinate / px", "Gaussian",
+       {"4 Diagnosis of the calibration", "Residual of one coordinate / px", "Gaussian",
         "Length of a corner's residual / px", "Rayleigh", "± 3 σ", "Working distance D / m",
         "telecentric", "mrcal agrees.", "The residuals are noise.",
         "How well the views know where they project", "View U2", "Standard uncertainty / µm"})

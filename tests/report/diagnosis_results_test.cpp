@@ -137,9 +137,9 @@ TEST_F(DiagnosisResults, TheTestsSayInPlainWordsWhatTheirProbabilityMeans) {
   EXPECT_EQ(rows[0][4], "They are as large as the corners' stated noise.");
   EXPECT_NE(TextAt(rows[1], "/4").find("A weak sign"), std::string::npos);
   EXPECT_EQ(TextAt(rows[2], "/3/printed"), "< 1e-12");
-  EXPECT_EQ(rows[2][4], "A clear sign of neighbours that err alike.");
+  EXPECT_EQ(TextAt(rows[2], "/4"), "A clear sign of neighbours that err alike.");
   EXPECT_NE(TextAt(rows[2], "/1").find("view B2, u, field"), std::string::npos);  // smallest p
-  EXPECT_EQ(rows[3][4], "A clear sign of a drift.");
+  EXPECT_EQ(TextAt(rows[3], "/4"), "A clear sign of a drift.");
 }
 
 TEST_F(DiagnosisResults, FindingsCarryTheirRemedies) {
@@ -154,7 +154,7 @@ TEST_F(DiagnosisResults, FindingsCarryTheirRemedies) {
   const Json& rows = Rows("residual-findings");
   ASSERT_EQ(rows.size(), 2u);
   EXPECT_EQ(rows[0][0], "residuals");
-  EXPECT_EQ(rows[0][2], "Free k1 in the lens model.");
+  EXPECT_EQ(TextAt(rows[0], "/2"), "Free k1 in the lens model.");
   EXPECT_EQ(rows[1][0], "board left out");
 }
 
@@ -177,7 +177,7 @@ TEST_F(DiagnosisResults, ThePinholeStandsBesideTheTelecentricModelOnTheSameRuler
   const Json& rows = Rows("pinhole");
   ASSERT_EQ(rows.size(), 8u);
   EXPECT_DOUBLE_EQ(*NumberAt(rows[0], "/7/value"), std::sqrt(squares_um2 / count));
-  EXPECT_EQ(rows[2][10], "1 of 3");
+  EXPECT_EQ(TextAt(rows[2], "/10"), "1 of 3");
   EXPECT_NE(Sentence("pinhole").find("no pinhole without coefficients comes within 1 %"),
             std::string::npos);
   EXPECT_NE(Sentence("pinhole").find("Ruler: the smallest RMSE"), std::string::npos);

@@ -171,9 +171,9 @@ TEST(MakeResults, DecisionsSayTheirMarginInWords) {
   ASSERT_EQ(rows.size(), 3u);
   bool found = false;
   for (const Json& row : rows)
-    found =
-        found ||
-        row[1] == "in doubt: 1.0 µm over the guard band; repeat with U of 0.8 µm or less to pass";
+    found = found ||
+            TextAt(row, "/1") ==
+                "in doubt: 1.0 µm over the guard band; repeat with U of 0.8 µm or less to pass";
   EXPECT_TRUE(found) << rows.dump(1);
 }
 
@@ -213,7 +213,7 @@ TEST(MakeResults, WatchedImagesStandWithTheirOwnHash) {
   const Json results = ResultsOf(fixture, verdict);
   int rows = 0;
   for (const Json& row : ListAt(TableOf(results, "input-files"), "/rows")) {
-    const std::string name = row[0];
+    const std::string name = TextAt(row, "/0");
     if (name.find(image) == std::string::npos) continue;
     ++rows;
     EXPECT_EQ(name, image + " (watched)");

@@ -7,6 +7,8 @@
 #include "pdf_sample.h"
 #include "pdf_structure_check.h"
 #include "pdf_tools.h"
+#include "report/table_block.h"
+#include "report/unicode_text.h"
 #include "results_fixture.h"
 
 namespace telestrain {
@@ -114,6 +116,36 @@ TEST_F(PdfArchive, AnEmptyTagAndALinkToNowhereLeaveNoTrace) {
   EXPECT_NE(bytes.find("/S /Span"), std::string::npos);
 }
 
+// 80 rows over several pages, the first linked: tags stay in order, headers are not read twice.
+TEST_F(PdfArchive, ALongTableIsOneTableWithLinks) {
+  Json table = {{"title", "Long"},
+                {"columns", {{{"name", "Row"}, {"unit", ""}}, {{"name", "Value"}, {"unit", "px"}}}},
+                {"row_links", {"there", {{"link", "there"}}, {{"link", "nowhere"}}, nullptr}}};
+  for (int i = 0; i < 80; ++i)
+    table["rows"].push_back({"row " + std::to_string(i), i % 7 == 0 ? Json("") : Json("1.5")});
+  table["rows"][40][1] = std::string(9000, 'x');  // a row that is cut over pages
+  auto pdf = PdfDocument::Create().value();
+  PageFlow flow(*pdf, Look{});
+  flow.StartPage();
+  pdf->AddDestination("there", flow.y_pt());
+  flow.Paragraph(flow.look().Strong(), "Title", {"H1"});
+  DrawTable(flow, table, {});
+  EXPECT_GT(pdf->PageCount(), 2);
+  const std::string bytes = pdf->Save({}, "").value();
+  EXPECT_EQ(Joined(StructureFaults(bytes)), "");
+  const auto count = [&](const std::string& wanted) {
+    int found = 0;
+    for (std::size_t at = bytes.find(wanted); at != std::string::npos;
+         at = bytes.find(wanted, at + 1))
+      ++found;
+    return found;
+  };
+  EXPECT_EQ(count("/S /Table\n"), 1);
+  EXPECT_EQ(count("/S /TR\n"), 81);
+  EXPECT_EQ(count("/S /Link\n"), 2);
+  EXPECT_EQ(count("/Scope /Column"), 2);
+}
+
 TEST_F(PdfArchive, MetadataSaysTheSameInBothPlaces) {
   PdfInfo info = SampleInfo();
   info.title = " <Prüfbericht> & 测量 \x01 \xF0\x9F\x98\x80\xEF\xBF\xBE ";
@@ -190,6 +222,30 @@ TEST_F(PdfArchive, CharactersWithoutMeaningAreNamed) {
                                    Write(pdf->Save({}, "").value()) + "' -")
                                .output;
   EXPECT_NE(text.find("[U+FEFF]a[U+E000]b[U+FFFE]"), std::string::npos) << text;
+}
+
+// Glyphs of DejaVu that are put together from glyphs that are put together themselves. Where all
+// parts are drawn as characters of their own too, libharu has them all.
+TEST_F(PdfArchive, GlyphsOfGlyphsOfGlyphsAreWhole) {
+  NEEDS_TOOL(TELESTRAIN_TOOL_PDFTOPPM, "pdftoppm");
+  const auto first_page = [this](const std::string& text, char32_t from, char32_t to) {
+    auto pdf = PdfDocument::Create().value();
+    pdf->AddPage();
+    pdf->DrawText({Face::kRegular, 40, {}}, {60, 600}, text);
+    pdf->AddPage();
+    for (char32_t c = from; c < to; ++c) pdf->DrawText({}, {60, 600}, Utf8(c));
+    const std::string path = Write(pdf->Save({}, "").value());
+    const std::string picture = (folder_ / "page").string();
+    RunTool(std::string(TELESTRAIN_TOOL_PDFTOPPM) + " -r 50 -l 1 -singlefile '" + path + "' '" +
+            picture + "'");
+    return FileBytes(picture + ".ppm");
+  };
+  for (const auto& [text, from, to] :
+       {std::tuple("\u4DC7\u4DD6", U'\u4DC0', U'\u4E00'), {"\u1402\u1414\u144E", 0x1400, 0x1500}}) {
+    const std::string alone = first_page(text, 0, 0);
+    EXPECT_NE(alone, first_page(" ", 0, 0));
+    EXPECT_EQ(alone, first_page(text, from, to));
+  }
 }
 
 TEST_F(PdfArchive, TheSameCallsGiveTheSameBytes) {

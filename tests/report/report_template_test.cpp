@@ -6,11 +6,11 @@ namespace telestrain {
 namespace {
 
 std::string Layout(const std::string& blocks) {
-  return R"({"schema": "telestrain.template/1", "blocks": [)" + blocks + "]}";
+  return R"({"schema": "telestrain.template/1", "title": "t", "blocks": [)" + blocks + "]}";
 }
 
 TEST(ReportTemplate, TheBuiltInOneIsValid) {
-  const auto layout = ReportTemplate::BuiltIn();
+  const auto layout = ReportTemplate::Load({});
   ASSERT_TRUE(layout) << layout.error().message;
   EXPECT_GT(layout->blocks().size(), 20u);
 }
@@ -22,11 +22,14 @@ TEST(ReportTemplate, ErrorsNameThePointerAndTheRemedy) {
   };
   const Case cases[] = {
       {"{", {"layout.json", "not valid JSON"}},
-      {"[]", {"layout.json: /: must be an object"}},
-      {R"({"schema": "x", "blocks": [{"type": "page-break"}]})",
+      {"[]", {"layout.json: /: is a list, must be an object"}},
+      {R"({"schema": "x", "title": "t", "blocks": [{"type": "page-break"}]})",
        {"/schema", "telestrain.template/1"}},
-      {R"({"schema": "telestrain.template/1"})", {"/blocks"}},
-      {R"({"schema": "telestrain.template/1", "block": []})", {"/block", "did you mean 'blocks'"}},
+      {R"({"schema": "telestrain.template/1", "title": "t"})", {"/: ", "'blocks'"}},
+      {R"({"schema": "telestrain.template/1", "title": "t", "blocks": []})", {"/blocks"}},
+      {R"({"schema": "telestrain.template/1", "title": "t", "blocks": [{"type": "page-break"}],
+           "labls": {}})",
+       {"/labls", "did you mean 'labels'"}},
       {Layout("7"), {"/blocks/0", "object"}},
       {Layout(R"({"text": "x"})"), {"/blocks/0", "type"}},
       {Layout(R"({"type": "heading", "text": "x"}, {"type": "tabel"})"),
@@ -53,22 +56,47 @@ TEST(ReportTemplate, ErrorsNameThePointerAndTheRemedy) {
   }
 }
 
-TEST(ReportTemplate, FillsInTheFirstValueThatExists) {
-  const Json values = {{"a", {{"b", "text"}}}, {"n", 3}};
-  EXPECT_EQ(FillIn("x {{/a/b}} y {{/n}}", values), "x text y 3");
-  EXPECT_EQ(FillIn("{{/no|/a/b}}", values), "text");
-  EXPECT_EQ(FillIn("{{/no|/neither|else}}", values), "else");
-  EXPECT_EQ(FillIn("{{/no}}", values), "");
-  EXPECT_EQ(FillIn("open {{ stays", values), "open {{ stays");
+TEST(ReportTemplate, FillsTextsAndSaysLabelsInItsOwnWording) {
+  const auto layout =
+      ReportTemplate::Parse("t", R"({"schema": "telestrain.template/1", "title": "t",
+              "labels": {"Limit": "Tolerance", "Page {{page}}": "Sheet {{page}}"},
+              "blocks": [{"type": "page-break"}]})");
+  ASSERT_TRUE(layout) << layout.error().message;
+  EXPECT_EQ(layout->Say("Limit"), "Tolerance");
+  EXPECT_EQ(layout->Say("Unit"), "Unit");
+  EXPECT_EQ(layout->Fill("Page {{page}}", {{"page", 3}}), "Sheet 3");
 }
 
-TEST(ReportTemplate, TranslatesKnownTextsOnly) {
-  const auto layout = ReportTemplate::Parse(
-      "t", R"({"schema": "telestrain.template/1", "labels": {"Limit": "Grenzwert"},
-              "blocks": [{"type": "page-break"}]})");
-  ASSERT_TRUE(layout);
-  EXPECT_EQ(layout->Translate("Limit"), "Grenzwert");
-  EXPECT_EQ(layout->Translate("Unit"), "Unit");
+// Names that the session gave are never taken for wordings.
+TEST(ReportTemplate, SaysTablesAndSentencesNotWhatTheSessionNamed) {
+  const auto layout = ReportTemplate::Load({{}, "acceptance", "de"});
+  ASSERT_TRUE(layout) << layout.error().message;
+  const Json results = Json::parse(R"({
+    "title": "Limit", "document": {"customer": "Limit"}, "measured": {"ruler": true},
+    "decision": {"printed": "Limit", "coverage_factor": 2},
+    "tables": [
+      {"id": "a", "title": "Limit", "columns": [{"name": "Limit", "unit": "bytes"}],
+       "rows": [["Limit"], [{"value": 1, "printed": "1.0"}], [{"verdict": "pass", "printed": "✓ pass"}]]},
+      {"id": "b", "title": "Limit",
+       "columns": [{"name": "Name"}, {"name": "Value"}, {"name": "Unit"}],
+       "rows": [["Limit", "yes", "mm"]]}]})");
+  const Json said = layout->SayTables(results);
+  EXPECT_EQ(TextAt(said, "/tables/0/title"), "Grenzwert");
+  EXPECT_EQ(TextAt(said, "/tables/0/columns/0/name"), "Grenzwert");
+  EXPECT_EQ(TextAt(said, "/tables/0/columns/0/unit"), "Byte");
+  EXPECT_EQ(TextAt(said, "/tables/0/rows/0/0"), "Grenzwert");
+  EXPECT_EQ(TextAt(said, "/tables/0/rows/1/0/printed"), "1.0");
+  EXPECT_EQ(NumberAt(said, "/tables/0/rows/1/0/value"), 1);
+  EXPECT_EQ(TextAt(said, "/tables/0/rows/2/0/printed"), "✓ erfüllt");
+  EXPECT_EQ(TextAt(said, "/tables/0/rows/2/0/verdict"), "pass");
+  EXPECT_EQ(TextAt(said, "/tables/1/rows/0/0"), "Grenzwert");
+  EXPECT_EQ(TextAt(said, "/tables/1/rows/0/1"), "ja");
+  const Json values = layout->FillValues(results);
+  EXPECT_EQ(TextAt(values, "/title"), "Limit");
+  EXPECT_EQ(TextAt(values, "/document/customer"), "Limit");
+  EXPECT_EQ(TextAt(values, "/decision/printed"), "Grenzwert");
+  EXPECT_EQ(NumberAt(values, "/decision/coverage_factor"), 2);
+  EXPECT_EQ(TextAt(values, "/report/title"), "Abnahmebericht");
 }
 
 }  // namespace

@@ -58,6 +58,15 @@ TEST(Rounding, PrintsSignificantDigits) {
   EXPECT_EQ(PrintSignificant(1.2e-300, 2), "1.2e-300");
   EXPECT_EQ(PrintSignificant(98124.4, 3), "98100");
   EXPECT_EQ(PrintSignificant(0, 3), "0.00");
+  EXPECT_EQ(PrintSignificant(0.0996, 2), "0.10");  // a digit is not added by rounding up
+  EXPECT_EQ(PrintSignificant(9.96, 2), "10");
+}
+
+TEST(Rounding, AnUncertaintyAloneHasTwoDigitsToo) {
+  for (int i = 1; i < 2000; ++i) {
+    const double uncertainty = std::pow(10.0, -3.9 + 0.004 * i);
+    EXPECT_EQ(PrintUncertainty(uncertainty), PrintWithUncertainty(0, uncertainty).uncertainty);
+  }
 }
 
 }  // namespace

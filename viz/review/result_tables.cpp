@@ -15,10 +15,11 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::array kOpenTables = {"ruler", "strain-states"};
 
+// A text, or what a sentence with values in it prints.
 std::string TextAt(const Json& json, const char* key) {
-  return json.is_object() && json.contains(key) && json.at(key).is_string()
-             ? json.at(key).get<std::string>()
-             : "";
+  if (!json.is_object() || !json.contains(key)) return "";
+  const Json& text = json.at(key);
+  return text.is_string() ? text.get<std::string>() : TextAt(text, "printed");
 }
 
 std::string PrintedOf(const Json& cell) {

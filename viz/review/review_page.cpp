@@ -36,8 +36,11 @@ constexpr const char* kNoVtkJs =
     "vtk.js. To get it: install npm, run 'bash bootstrap build' with the network on, then "
     "'telestrain review' again. The pictures below show the same.";
 
+// A text, or what a sentence with values in it prints.
 std::string TextAt(const Json& json, const std::string& key) {
-  return json.contains(key) && json.at(key).is_string() ? json.at(key).get<std::string>() : "";
+  if (!json.is_object() || !json.contains(key)) return "";
+  const Json& text = json.at(key);
+  return text.is_string() ? text.get<std::string>() : TextAt(text, "printed");
 }
 
 // "report_number" as "Report number".

@@ -49,10 +49,15 @@ class VirtualExperiment : public testing::Test {
 };
 
 TEST_F(VirtualExperiment, WritesASessionThatReadsBack) {
-  const Status written = Write(SmallExperiment(), "session");
+  VirtualExperimentOptions options = SmallExperiment();
+  options.document = {{"date", "2026-01-31"}, {"customer", "Müller \"Rohr\" GmbH"}};
+  const Status written = Write(options, "session");
   ASSERT_TRUE(written.ok()) << written.error().message;
   const auto session = ReadSession(root_ / "session");
   ASSERT_TRUE(session.ok()) << session.error().message;
+  EXPECT_EQ(session->document.at("date"), "2026-01-31");
+  EXPECT_EQ(session->document.at("customer"), "Müller \"Rohr\" GmbH");
+  EXPECT_EQ(session->document.at("report_number"), "VE-1");
   EXPECT_EQ(session->views.size(), 4U);
   EXPECT_EQ(session->calibration_images.size(), 8U);
   EXPECT_EQ(session->calibration_images[0].pose, session->calibration_images[1].pose);

@@ -1,0 +1,54 @@
+#include "report/template_list.h"
+
+#include <algorithm>
+
+#include "report/layout_file.h"
+#include "report/report_template.h"
+#include "report/template_folder.h"
+
+namespace telestrain {
+namespace {
+
+Result<std::vector<NamedTemplate>> Listed(const TemplateFolder& folder, const std::string& in,
+                                          const char* title) {
+  std::vector<NamedTemplate> list;
+  for (const std::string& name : folder.Names(in)) {
+    TELESTRAIN_ASSIGN_OR_RETURN(const TemplateFile file,
+                                folder.Read((in.empty() ? "" : in + "/") + name + ".json"));
+    TELESTRAIN_ASSIGN_OR_RETURN(const Json json, ParseTemplate(file));
+    list.push_back({name, TextAt(json, title)});
+  }
+  return list;
+}
+
+}  // namespace
+
+Result<TemplateList> ListTemplates(const std::filesystem::path& folder) {
+  TELESTRAIN_ASSIGN_OR_RETURN(const TemplateFolder templates, TemplateFolder::Open(folder));
+  TemplateList list;
+  TELESTRAIN_ASSIGN_OR_RETURN(list.layouts, Listed(templates, "", "/title"));
+  TELESTRAIN_ASSIGN_OR_RETURN(list.languages, Listed(templates, "texts", "/name"));
+  const auto is_english = [](const NamedTemplate& language) { return language.name == "en"; };
+  if (std::none_of(list.languages.begin(), list.languages.end(), is_english))
+    list.languages.push_back({"en", "English"});
+  std::sort(list.languages.begin(), list.languages.end(),
+            [](const NamedTemplate& a, const NamedTemplate& b) { return a.name < b.name; });
+  return list;
+}
+
+Result<LayoutScope> ScopeOfLayout(const ReportOptions& options) {
+  TELESTRAIN_ASSIGN_OR_RETURN(
+      const ReportTemplate layout,
+      ReportTemplate::Load({options.templates, options.name, options.language}));
+  LayoutScope found;
+  found.scope.name = options.name;
+  for (const Json& section : ListAt(layout.json(), "/scope/sections"))
+    found.scope.sections.push_back(section.get<std::string>());
+  const Json& limits = EntryAt(layout.json(), "/limits");
+  if (limits.is_object())
+    for (const auto& [key, limit] : limits.items()) found.scope.limits[key] = limit.get<double>();
+  found.against_earlier = EntryAt(layout.json(), "/scope/against_earlier") == true;
+  return found;
+}
+
+}  // namespace telestrain

@@ -1,0 +1,60 @@
+#include "report/text_filling.h"
+
+#include <kainjow/mustache.hpp>
+
+#include "base/check.h"
+
+namespace telestrain {
+namespace {
+
+using Data = kainjow::mustache::data;
+
+Data DataOf(const Json& json) {
+  if (json.is_object()) {
+    Data data(Data::type::object);
+    for (const auto& [key, value] : json.items())
+      if (!value.is_null() && value != "") data.set(key, DataOf(value));
+    return data;
+  }
+  if (json.is_array()) {
+    Data data(Data::type::list);
+    for (const Json& value : json) data.push_back(DataOf(value));
+    return data;
+  }
+  if (json.is_boolean()) return Data(json.get<bool>());
+  return Data(TextAt(json, ""));
+}
+
+}  // namespace
+
+std::string FillText(const std::string& text, const Json& values) {
+  if (text.find("{{") == std::string::npos) return text;
+  kainjow::mustache::mustache pattern(text);
+  TELESTRAIN_CHECK(pattern.is_valid(), "an unchecked text: " + text);
+  pattern.set_custom_escape([](const std::string& value) { return value; });
+  return pattern.render(DataOf(values));
+}
+
+std::optional<std::string> TextFault(const std::string& text) {
+  if (text.find("{{") == std::string::npos) return {};
+  if (text.find("{{/") < text.find("{{#") && text.find("{{/") < text.find("{{^"))
+    return "'{{/' closes what no '{{#' or '{{^' opened; an entry is named {{document.number}}";
+  const kainjow::mustache::mustache pattern(text);
+  if (pattern.is_valid()) return {};
+  return pattern.error_message();
+}
+
+std::set<std::string> NamesInText(const std::string& text) {
+  std::set<std::string> names;
+  for (std::size_t open = text.find("{{"); open != std::string::npos;
+       open = text.find("{{", open + 2)) {
+    const std::size_t close = text.find("}}", open);
+    if (close == std::string::npos) break;
+    std::string name = text.substr(open + 2, close - open - 2);
+    name.erase(0, name.find_first_not_of("#^/&{ "));
+    names.insert(name.substr(0, name.find_last_not_of("} ") + 1));
+  }
+  return names;
+}
+
+}  // namespace telestrain
