@@ -80,6 +80,12 @@ std::vector<std::pair<std::size_t, std::string>> RecordedRoles(
   return roles;
 }
 
+bool IsRecorded(const std::vector<AuditEntry>& entries, const std::string& role) {
+  const auto roles = RecordedRoles(entries);
+  return std::any_of(roles.begin(), roles.end(),
+                     [&](const auto& recorded) { return recorded.second == role; });
+}
+
 Result<std::string> Signatures(const std::string& name, const std::string& bytes,
                                const TrustOptions& trust, const FolderTrail* folder) {
   TELESTRAIN_ASSIGN_OR_RETURN(const SignatureCheck check, CheckSignatures(bytes, trust));
@@ -92,13 +98,18 @@ Result<std::string> Signatures(const std::string& name, const std::string& bytes
                         LineName(folder->entries, index) + " of the audit trail tells of");
   if (check.signatures.empty()) return std::string("not signed");
   std::string text;
-  for (const PdfSignature& signature : check.signatures)
+  for (const PdfSignature& signature : check.signatures) {
     text += (text.empty() ? "signed by " : ", ") + signature.role + " " + signature.signer;
+    if (folder && !IsRecorded(folder->entries, signature.role))
+      text += " (not told of in the audit trail)";
+  }
   return text;
 }
 
 Status CheckAgainstFolder(const std::string& name, const PdfContents& contents,
                           const FolderTrail& folder) {
+  if (!LatestOutputs(folder.entries, folder.entries.size()).contains("report.pdf"))
+    return BadInput(name + " is there, but no line of the audit trail made it: lines were cut off");
   if (folder.text.starts_with(contents.attachments.at(kTrail))) return {};
   return BadInput("the audit trail in " + name +
                   " is not the beginning of the one in the results folder: lines of one of them "

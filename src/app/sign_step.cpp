@@ -100,7 +100,7 @@ Result<int> SignStep(const SignArguments& arguments, Console& console) {
   const std::string target = arguments.out.empty() ? arguments.report : arguments.out;
   TELESTRAIN_ASSIGN_OR_RETURN(const SignOptions options, OptionsOf(arguments));
   TELESTRAIN_ASSIGN_OR_RETURN(const std::string before, ReadFile(arguments.report));
-  TELESTRAIN_ASSIGN_OR_RETURN(auto trail, TrailBeside(fs::absolute(arguments.report)));
+  TELESTRAIN_ASSIGN_OR_RETURN(auto trail, TrailBeside(fs::absolute(target)));
   TELESTRAIN_ASSIGN_OR_RETURN(const SigningKey key, KeyOf(arguments));
   TELESTRAIN_ASSIGN_OR_RETURN(const SignedReport signed_report,
                               SignReport(arguments.report, before, key, options));

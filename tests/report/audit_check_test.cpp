@@ -4,13 +4,13 @@
 #include <functional>
 
 #include "base/files.h"
-#include "edited_pdf.h"
 #include "report/audit/file_difference.h"
 #include "report/audit/report_check.h"
 #include "report/audit/step_order.h"
 #include "report/audit/tell_audit.h"
 #include "report/audit/trail_files.h"
 #include "report/audit/verify_audit.h"
+#include "report/edited_pdf.h"
 #include "report/pdf_document.h"
 #include "unit/base/scratch_folder.h"
 
@@ -172,7 +172,12 @@ TEST_F(AuditCheckTest, TheTrailMustBeThereAndWhole) {
 }
 
 TEST_F(AuditCheckTest, ATruncatedTrailOfTheFolderDoesNotFitTheReport) {
+  EditTrail([](std::string& text) { text.resize(text.rfind('\n', text.size() - 2) + 1); });
+  EXPECT_EQ(VerifiedFolder(),
+            "FAIL: report.pdf is there, but no line of the audit trail made it: lines were cut "
+            "off");
   EditTrail([](std::string& text) { text.resize(text.find('\n') + 1); });
+  Append("report", {}, {FileOf("results", "report.pdf", report_)});
   EXPECT_EQ(VerifiedFolder(),
             "FAIL: the audit trail in report.pdf is not the beginning of the one in the results "
             "folder: lines of one of them were taken out or exchanged");

@@ -1,4 +1,4 @@
-#include "edited_pdf.h"
+#include "report/edited_pdf.h"
 
 #include <memory>
 #include <qpdf/Buffer.hh>

@@ -9,7 +9,7 @@
 #include <qpdf/Pl_Flate.hh>
 #include <qpdf/QPDFEmbeddedFileDocumentHelper.hh>
 
-#include "edited_pdf.h"
+#include "report/edited_pdf.h"
 #include "report/pdf_document.h"
 
 namespace telestrain {

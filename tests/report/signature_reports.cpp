@@ -21,8 +21,7 @@ std::string MakeReport(bool with_fields) {
   if (!created) throw std::runtime_error(created.error().message);
   PdfDocument& pdf = **created;
   for (const char* text : {"Page one: the verdict is PASS", "Page two: signatures"}) {
-    pdf.AddPage();
-    const ScopedTag paragraph(pdf, PdfTag{"P", ""});
+    const ScopedTag heading(pdf, PdfTag{pdf.AddPage() == 0 ? "H1" : "P", ""});
     pdf.DrawText({}, {70, 700}, text);
   }
   pdf.Attach({.name = "results.json",

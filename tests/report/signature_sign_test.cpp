@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <qpdf/Buffer.hh>
 #include <qpdf/QPDF.hh>
+#include <qpdf/QPDFWriter.hh>
 
 #include "base/files.h"
+#include "pdf_structure_check.h"
 #include "pdf_tools.h"
 #include "report/signature/opened_pdf.h"
 #include "report/signature/roles.h"
@@ -80,6 +83,12 @@ TEST(SignReport, DrawsInTheFieldWithEmbeddedFontsAndNoTransparency) {
   }
 }
 
+TEST(SignReport, KeepsTheTagsOfThePagesWhole) {
+  std::string faults;
+  for (const std::string& fault : StructureFaults(FourTimesSigned())) faults += fault + "\n";
+  EXPECT_EQ(faults, "");
+}
+
 TEST(SignReport, AddsAnInvisibleFieldWhereTheReportHasNone) {
   std::string report = ReportWithoutFields();
   for (const std::string_view role : kSigningRoles) report = Sign(report, std::string(role));
@@ -112,6 +121,19 @@ TEST(SignReport, RefusesFilesThatAreNotOursOrDamaged) {
   for (std::size_t at = 0; (at = foreign.find("telestrain 0.1.0", at)) != std::string::npos;)
     foreign.replace(at, 16, "another program ");
   ExpectRefused(TrySign(foreign, "operator", key), "is no report that telestrain wrote");
+}
+
+TEST(SignReport, RefusesEncryptedFiles) {
+  QPDF pdf;
+  pdf.processMemoryFile("report", UnsignedReport().data(), UnsignedReport().size());
+  QPDFWriter writer(pdf);
+  writer.setOutputMemory();
+  writer.setR6EncryptionParameters("", "owner", true, true, true, true, true, true, qpdf_r3p_full,
+                                   true);
+  writer.write();
+  const auto buffer = writer.getBufferSharedPointer();
+  const std::string locked(reinterpret_cast<const char*>(buffer->getBuffer()), buffer->getSize());
+  ExpectRefused(TrySign(locked, "operator", Pki().operator_.ForSigning()), "the PDF is encrypted");
 }
 
 TEST(SignReport, RefusesAReportThatWasChangedAfterASignature) {
