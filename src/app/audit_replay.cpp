@@ -185,7 +185,7 @@ class Replay {
 
   // What the entry made, against what was made now.
   Result<std::string> Compare(std::size_t index) {
-    const auto latest = LatestOutputs(entries_, entries_.size());
+    const auto latest = LatestOutputs(entries_);
     for (const Json& file : ListAt(entries_[index].body, "/outputs")) {
       const std::string path = TextAt(file, "/path");
       const bool is_inside = TextAt(file, "/of") == "results";
