@@ -51,7 +51,7 @@ Status CheckAttachments(const std::string& name, const PdfContents& contents,
     if (!Prints(printed, Sha256Hex(bytes)))
       return BadInput("attachment " + file + " of " + name +
                       " is not the one whose SHA-256 is printed on its pages");
-  const auto made = LatestOutputs(entries, entries.size());
+  const auto made = LatestOutputs(entries);
   for (const char* file : kCarried) {
     const auto wanted = made.find(file);
     const auto attached = contents.attachments.find(file);
@@ -108,7 +108,7 @@ Result<std::string> Signatures(const std::string& name, const std::string& bytes
 
 Status CheckAgainstFolder(const std::string& name, const PdfContents& contents,
                           const FolderTrail& folder) {
-  if (!LatestOutputs(folder.entries, folder.entries.size()).contains("report.pdf"))
+  if (!LatestOutputs(folder.entries).contains("report.pdf"))
     return BadInput(name + " is there, but no line of the audit trail made it: lines were cut off");
   if (folder.text.starts_with(contents.attachments.at(kTrail))) return {};
   return BadInput("the audit trail in " + name +

@@ -27,19 +27,21 @@ Status CheckFile(const std::string& path, const std::string& made_by, const Trai
   return BadInput(path + " was changed after " + made_by + " made it");
 }
 
+void AddOutputs(const std::vector<AuditEntry>& entries, std::size_t index,
+                std::map<std::string, TrailFile>& files) {
+  const Json& body = entries[index].body;
+  if (entries[index].type == "sign" && TextAt(body, "/file") == kReport)
+    files[kReport] = {TextAt(body, "/sha256_after"), 0, index};
+  for (const Json& file : ListAt(body, "/outputs"))
+    if (IsOf(file, "results"))
+      files[TextAt(file, "/path")] = {TextAt(file, "/sha256"), BytesOf(file), index};
+}
+
 }  // namespace
 
-std::map<std::string, TrailFile> LatestOutputs(const std::vector<AuditEntry>& entries,
-                                               std::size_t count) {
+std::map<std::string, TrailFile> LatestOutputs(const std::vector<AuditEntry>& entries) {
   std::map<std::string, TrailFile> files;
-  for (std::size_t i = 0; i < count; ++i) {
-    const Json& body = entries[i].body;
-    if (entries[i].type == "sign" && TextAt(body, "/file") == kReport)
-      files[kReport] = {TextAt(body, "/sha256_after"), 0, i};
-    for (const Json& file : ListAt(body, "/outputs"))
-      if (IsOf(file, "results"))
-        files[TextAt(file, "/path")] = {TextAt(file, "/sha256"), BytesOf(file), i};
-  }
+  for (std::size_t i = 0; i < entries.size(); ++i) AddOutputs(entries, i, files);
   return files;
 }
 
@@ -48,8 +50,8 @@ std::string LineName(const std::vector<AuditEntry>& entries, std::size_t index) 
 }
 
 Status CheckStory(const std::vector<AuditEntry>& entries) {
+  std::map<std::string, TrailFile> made;
   for (std::size_t i = 0; i < entries.size(); ++i) {
-    const auto made = LatestOutputs(entries, i);
     for (const Json& file : ListAt(entries[i].body, "/inputs")) {
       if (!IsOf(file, "results")) continue;
       const std::string path = TextAt(file, "/path");
@@ -61,13 +63,14 @@ Status CheckStory(const std::vector<AuditEntry>& entries) {
         return BadInput(LineName(entries, i) + " of the audit trail read another " + path +
                         " than " + LineName(entries, found->second.entry) + " made");
     }
+    AddOutputs(entries, i, made);
   }
   return {};
 }
 
 Result<std::size_t> CheckOutputs(const std::vector<AuditEntry>& entries, const fs::path& results) {
   std::size_t count = 0;
-  for (const auto& [path, file] : LatestOutputs(entries, entries.size())) {
+  for (const auto& [path, file] : LatestOutputs(entries)) {
     std::error_code code;
     const std::string made_by = LineName(entries, file.entry) + " of the audit trail";
     if (!fs::exists(results / path, code)) {

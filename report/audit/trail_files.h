@@ -18,9 +18,8 @@ struct TrailFile {
   std::size_t bytes = 0;
   std::size_t entry = 0;  // its index: the latest that made the file
 };
-// By the path inside the results folder; of the first `count` entries.
-std::map<std::string, TrailFile> LatestOutputs(const std::vector<AuditEntry>& entries,
-                                               std::size_t count);
+// By the path inside the results folder.
+std::map<std::string, TrailFile> LatestOutputs(const std::vector<AuditEntry>& entries);
 
 // "line 5 (verify)".
 std::string LineName(const std::vector<AuditEntry>& entries, std::size_t index);

@@ -14,6 +14,7 @@
 #include "base/files.h"
 #include "base/numbers.h"
 #include "report/audit/file_difference.h"
+#include "report/audit/step_order.h"
 #include "report/audit/trail_files.h"
 
 namespace telestrain {
@@ -185,24 +186,31 @@ class Replay {
 
   // What the entry made, against what was made now.
   Result<std::string> Compare(std::size_t index) {
-    const auto latest = LatestOutputs(entries_, entries_.size());
     for (const Json& file : ListAt(entries_[index].body, "/outputs")) {
-      const std::string path = TextAt(file, "/path");
+      const std::string path = TextAt(file, "/path"), hash = TextAt(file, "/sha256");
       const bool is_inside = TextAt(file, "/of") == "results";
       const auto now = ReadFile((is_inside ? work_.Results() : ElsewhereOf(index)) / path);
       if (!now) return path + " was not made again";
-      const bool lies_there = is_inside && latest.at(path).sha256 == TextAt(file, "/sha256");
-      if (lies_there) {
-        TELESTRAIN_ASSIGN_OR_RETURN(const std::string then, ReadFile(choices_.results / path));
-        if (const std::string what = FirstDifference(path, then, *now); !what.empty())
-          return path + ": " + what;
-      } else if (Sha256Hex(*now) != TextAt(file, "/sha256")) {
+      const std::string difference = is_inside ? DifferenceInResults(path, hash, *now) : "";
+      if (!difference.empty()) return path + ": " + difference;
+      if (Sha256Hex(*now) != hash)
         return path + " is made again with other bytes than " + LineName(entries_, index) +
                " of the audit trail says";
-      }
       ++files_;
     }
     return std::string();
+  }
+
+  // Of a file that lies in the results folder as the entry with this hash made it. One that a later
+  // step replaced or took away is known by its hash only; signatures follow what was made.
+  std::string DifferenceInResults(const std::string& path, const std::string& hash,
+                                  const std::string& now) const {
+    const TrailFile latest = LatestOutputs(entries_).at(path);
+    if (latest.sha256 != hash) return "";
+    const auto then = ReadFile(choices_.results / path);
+    if (!then) return IsSuperseded(entries_, latest.entry) ? "" : "is missing in the results";
+    if (path == "report.pdf" && then->starts_with(now)) return "";
+    return FirstDifference(path, *then, now);
   }
 
   const ReplayChoices& choices_;

@@ -97,9 +97,11 @@ int Report(const std::string& verb, const Error& error, Console& console) {
 
 // The results folder that a verb was given, by the name of its option; empty when it has none.
 std::filesystem::path ResultsOf(const CLI::App& verb) {
-  for (const char* name : {"RESULTS", "--out"})
-    if (const auto* option = verb.get_option_no_throw(name); option && option->count() > 0)
-      return option->results().front();
+  for (const char* name : {"RESULTS", "REPORT", "--out"})
+    if (const auto* option = verb.get_option_no_throw(name); option && option->count() > 0) {
+      const std::filesystem::path path = option->results().front();
+      return std::string(name) == "REPORT" ? std::filesystem::absolute(path).parent_path() : path;
+    }
   return {};
 }
 

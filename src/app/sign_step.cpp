@@ -83,13 +83,21 @@ Result<std::optional<AuditTrail>> TrailBeside(const fs::path& report) {
   return std::optional<AuditTrail>(std::move(trail));
 }
 
+// The signed file as seen from the folder of the report: report.pdf itself, or another one.
+std::string FileOf(const SignArguments& arguments) {
+  if (arguments.out.empty()) return fs::path(arguments.report).filename().string();
+  return fs::absolute(arguments.out)
+      .lexically_normal()
+      .lexically_relative(fs::absolute(arguments.report).lexically_normal().parent_path())
+      .string();
+}
+
 Json EntryOf(const SignArguments& arguments, const std::string& before,
              const SignedReport& signed_report) {
   return {{"role", arguments.role},
           {"signer", signed_report.signer},
           {"certificate_sha256", signed_report.fingerprint},
-          {"file",
-           fs::path(arguments.out.empty() ? arguments.report : arguments.out).filename().string()},
+          {"file", FileOf(arguments)},
           {"sha256_before", Sha256Hex(before)},
           {"sha256_after", Sha256Hex(signed_report.bytes)}};
 }

@@ -98,16 +98,21 @@ StepRecord ResultsRecord(const Json& options, const fs::path& against) {
           {},
           {"inputs.json", "detection.json", "calibration.json", "residuals.csv", "mrcal.json",
            "comparison.json", "ruler.json", "strain.json"},
-          {},
+          IfGiven(earlier),
           {"results.json", "dcc.xml"}};
 }
 
-// Every picture beside the report may stand in it.
-StepRecord ReportRecord(const fs::path& results, const Json& options) {
+// Every picture beside the report may stand in it, every file of the user's templates shape it.
+StepRecord ReportRecord(const fs::path& results, const fs::path& templates, const Json& options) {
   StepRecord record{"report", options,
                     {},       {"results.json", "calibration.json", "residuals.csv", "dcc.xml"},
                     {},       {"report.pdf"}};
   std::error_code code;
+  for (fs::recursive_directory_iterator entry(templates, code), end; !code && entry != end;
+       entry.increment(code))
+    if (entry->path().extension() == ".json" || entry->path().extension() == ".png")
+      record.inputs_elsewhere.push_back(entry->path());
+  std::sort(record.inputs_elsewhere.begin(), record.inputs_elsewhere.end());
   for (fs::directory_iterator entry(results / "pictures", code), end; !code && entry != end;
        entry.increment(code))
     if (viz::IsStandardPicture(entry->path().filename().string()))
@@ -237,7 +242,8 @@ Result<int> ReportStep(const fs::path& results, const ReportChoices& choices, Co
   TELESTRAIN_RETURN_IF_ERROR(WriteReport(results, options));
   recorded["language"] = choices.language;
   recorded["archive-level"] = choices.level == ArchiveLevel::k1b ? "1b" : "3a";
-  TELESTRAIN_RETURN_IF_ERROR(RecordStep(results, ReportRecord(results, recorded)));
+  TELESTRAIN_RETURN_IF_ERROR(
+      RecordStep(results, ReportRecord(results, choices.templates, recorded)));
   console.Say("report     " +
               fs::absolute(results / "report.pdf", code).lexically_normal().string());
   console.Say("verdict    " + outcome.verdict);

@@ -144,7 +144,7 @@ TEST_F(AuditTest, ReplayRepeatsTheOptionsOfEveryVerb) {
                                  "--compare", (Results() / "calibration.json").string()},
         {"measure", session, "--out", out, "--subset-px", "31"},
         {"render", out, "--view", "pipe_strain", "--state", "1", "--range", "0", "500", "--size",
-         "400x300", "--out", (scratch() / "a.png").string()},
+         "800x600", "--out", (scratch() / "a.png").string()},
         {"export", out, "--out", (scratch() / "e").string(), "--format", "glb,calibration"}})
     ASSERT_EQ(RunTelestrain(words).exit_code, 0) << words.front();
   const ProgramRun run = Audit("replay");
