@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <ctime>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -20,9 +21,9 @@
 
 // report_bench [FOLDER]
 // The acceptance report with ten pictures of 2000 x 1300 px (300 dpi): seconds of its layout from
-// results.json on, size, peak memory, and the time over that of zlib at level 6 on the same pixels
-// in the same run. The report stays in FOLDER when it is named. Exits with 1 when a bar is missed:
-// 3 s, 8 MB, 300 MB.
+// results.json on, size, peak memory, and the processor time over that of zlib at level 6 on the
+// same pixels in the same run. The report stays in FOLDER when it is named. Exits with 1 when a bar
+// is missed: 3 s, 8 MB, 300 MB.
 
 namespace telestrain {
 namespace {
@@ -58,6 +59,9 @@ void WriteInputs(const fs::path& folder) {
   if (!MakeResults(folder)) std::abort();
 }
 
+// Of this process, whatever else the machine does.
+double ProcessorSeconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
 double Seconds(const std::function<void()>& work) {
   const auto start = std::chrono::steady_clock::now();
   work();
@@ -70,7 +74,7 @@ double Median(std::vector<double> values) {
 }
 
 struct Cost {
-  double seconds = 0, peak_MB = 0;
+  double seconds = 0, processor_s = 0, peak_MB = 0;
 };
 
 // In a process of its own, so that its peak memory is the report's.
@@ -91,6 +95,8 @@ Cost MakeInChild(const fs::path& folder) {
     wait4(child, &status, 0, &usage);
   });
   if (status != 0) std::exit(5);
+  for (const timeval& time : {usage.ru_utime, usage.ru_stime})
+    cost.processor_s += static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
   cost.peak_MB = static_cast<double>(usage.ru_maxrss) * 1024 / 1e6;
   return cost;
 }
@@ -104,7 +110,9 @@ double DeflateSeconds(const fs::path& folder) {
     const std::vector<unsigned char>& pixels = image->pixels;
     uLongf size = compressBound(pixels.size());
     std::vector<unsigned char> packed(size);
-    seconds += Seconds([&] { compress2(packed.data(), &size, pixels.data(), pixels.size(), 6); });
+    const double start = ProcessorSeconds();
+    compress2(packed.data(), &size, pixels.data(), pixels.size(), 6);
+    seconds += ProcessorSeconds() - start;
   }
   return seconds;
 }
@@ -117,10 +125,11 @@ bool Say(const char* what, double value, double most, const char* unit) {
 
 int Run(const fs::path& folder) {
   WriteInputs(folder);
-  std::vector<double> seconds, peaks, deflate;
+  std::vector<double> seconds, processor, peaks, deflate;
   for (int run = 0; run < kRuns; ++run) {
     const Cost cost = MakeInChild(folder);
     seconds.push_back(cost.seconds);
+    processor.push_back(cost.processor_s);
     peaks.push_back(cost.peak_MB);
     deflate.push_back(DeflateSeconds(folder));
   }
@@ -130,8 +139,9 @@ int Run(const fs::path& folder) {
   met = Say("peak memory, largest", *std::max_element(peaks.begin(), peaks.end()), kMostMemory_MB,
             "MB") &&
         met;
-  std::printf("%-24s %8.2f s\n", "zlib level 6, median", Median(deflate));
-  std::printf("%-24s %8.2f\n", "report over zlib", Median(seconds) / Median(deflate));
+  std::printf("%-24s %8.2f s processor time\n", "report", Median(processor));
+  std::printf("%-24s %8.2f s processor time\n", "zlib level 6", Median(deflate));
+  std::printf("%-24s %8.2f\n", "report over zlib", Median(processor) / Median(deflate));
   return met ? 0 : 1;
 }
 
