@@ -27,7 +27,7 @@ const std::array<Group, 3>& Groups() {
       Group{"Strain of the pipe",
             {"strain"},
             {"strain-comparison", "strain-states", "pipe", "sequence", "sequence-cycles",
-             "strain-budget", "correlation"}}};
+             "strain-budget", "diameter-budget", "correlation"}}};
   return kGroups;
 }
 
