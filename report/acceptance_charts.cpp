@@ -57,8 +57,8 @@ std::vector<Plot::LegendEntry> VerdictLegend(const ReportContext& context) {
   for (const char* verdict : {"pass", "doubt", "fail"})
     for (const Json& row : ListAt(context.Table("ruler"), "/rows"))
       if (TextAt(row, kVerdict) == verdict) {
-        legend.push_back({context.layout.Say(std::string("E ± U, ") + verdict),
-                          MarkerOf(verdict), look.OfVerdict(verdict)});
+        legend.push_back(
+            {"E ± U, " + context.layout.Say(verdict), MarkerOf(verdict), look.OfVerdict(verdict)});
         break;
       }
   if (legend.empty()) legend.push_back({"E ± U", Marker::kDot, look.measured});

@@ -50,7 +50,8 @@ struct FittedLine {
   std::string equation;
 };
 
-const Json& ValueOf(const Json& table, const char* name) {
+// `name` as it stands in the table, in the report's language.
+const Json& ValueOf(const Json& table, const std::string& name) {
   for (const Json& row : ListAt(table, "/rows"))
     if (TextAt(row, "/0") == name) return EntryAt(row, "/1");
   return EntryAt(table, "/none");
@@ -60,11 +61,12 @@ const Json& ValueOf(const Json& table, const char* name) {
 std::optional<FittedLine> Regression(const ReportContext& context) {
   const Json& sequence = context.Table("sequence");
   const Json& comparison = context.Table("strain-comparison");
-  const bool weighted = !ValueOf(sequence, "Slope, camera over gauges").is_null();
-  const Json& slope = weighted ? ValueOf(sequence, "Slope, camera over gauges")
-                               : ValueOf(comparison, "Slope of the regression");
-  const Json& intercept = weighted ? ValueOf(sequence, "Intercept")
-                                   : ValueOf(comparison, "Intercept of the regression");
+  const auto say = [&](const char* name) { return context.layout.Say(name); };
+  const bool weighted = !ValueOf(sequence, say("Slope, camera over gauges")).is_null();
+  const Json& slope = weighted ? ValueOf(sequence, say("Slope, camera over gauges"))
+                               : ValueOf(comparison, say("Slope of the regression"));
+  const Json& intercept = weighted ? ValueOf(sequence, say("Intercept"))
+                                   : ValueOf(comparison, say("Intercept of the regression"));
   const auto value = NumberAt(slope, "/value"), offset = NumberAt(intercept, "/value");
   if (!value || !offset) return {};
   return FittedLine{
@@ -165,8 +167,7 @@ Status DrawStrainErrors(const ReportContext& context, const PageBox& box) {
   chart.x_label = "State, 0 is the reference";
   chart.y_label = "Camera - gauges / µε";
   chart.numbered = true;
-  chart.legend = {
-      {context.layout.Say("error ± U of the camera"), Marker::kDot, look.measured}};
+  chart.legend = {{context.layout.Say("error ± U of the camera"), Marker::kDot, look.measured}};
   const Json& quantity = FindBy(ListAt(context.results, "/quantities"), "id", "strain_error");
   chart.limit = NumberAt(quantity, "/limit");
   chart.limit_text = context.layout.Say("limit of the RMS error") + " " +

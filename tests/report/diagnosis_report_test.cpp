@@ -27,6 +27,14 @@ class DiagnosisReport : public ::testing::Test {
                                 (folder_ / "report.pdf").string() + "' -")
                             .output);
   }
+  // Its section of the diagnosis; others say "not measured" of what nobody measures.
+  static std::string DiagnosisPart(const std::string& text) {
+    const std::size_t begin = text.rfind("4Diagnosisofthecalibration");
+    const std::size_t end = text.find("5Lengthacceptanceontheruler", begin);
+    EXPECT_NE(begin, std::string::npos);
+    EXPECT_NE(end, std::string::npos);
+    return begin < end ? text.substr(begin, end - begin) : "";
+  }
   static int Count(const std::string& text, const std::string& wanted) {
     int count = 0;
     for (std::size_t at = text.find(wanted); at != std::string::npos;
@@ -48,7 +56,7 @@ TEST_F(DiagnosisReport, ShowsEveryChart) {
         "telecentric", "mrcal agrees.", "The residuals are noise.",
         "How well the views know where they project", "View U2", "Standard uncertainty / µm"})
     EXPECT_NE(text.find(WithoutSpace(wanted)), std::string::npos) << wanted;
-  EXPECT_EQ(Count(text, "notmeasured"), 0);
+  EXPECT_EQ(Count(DiagnosisPart(text), "notmeasured"), 0);
 }
 
 TEST_F(DiagnosisReport, DrawsEveryViewTwiceHoweverManyThereAre) {
@@ -92,7 +100,7 @@ TEST_F(DiagnosisReport, BrokenPartsAreDrawnAsMissing) {
   for (auto& view : residuals["views"]) view["regional"]["mean_px"] = {1, 2, 3};
   for (auto& view : residuals["views"]) view["regional"]["step_x_px"] = -1;
   fixture_.diagnosis["uncertainty"]["maps"] = {{{"view", "U1"}, {"columns", -1}}};
-  EXPECT_EQ(Count(TextOfReport(), "notmeasured"), 7);
+  EXPECT_EQ(Count(DiagnosisPart(TextOfReport()), "notmeasured"), 7);
 }
 
 }  // namespace

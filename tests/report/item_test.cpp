@@ -42,7 +42,7 @@ TEST(Item, StatementsHoldTheRuleAndTheScope) {
   const Json results = MakeAndRead(PlausibleResults());
   const Json& table = TableIn(results, "statements");
   EXPECT_EQ(TextAt(RowOf(table, "Scope"), "/1"), "The results relate only to the items tested.");
-  EXPECT_EQ(TextAt(RowOf(table, "Conformity"), "/1"), TextAt(results, "/decision/printed"));
+  EXPECT_EQ(TextAt(RowOf(table, "Decision rule"), "/1"), TextAt(results, "/decision/printed"));
   EXPECT_NE(TextAt(RowOf(table, "Uncertainty"), "/1").find("k = 2, for a normal distribution"),
             std::string::npos);
   EXPECT_EQ(TextAt(RowOf(table, "Authorised by"), "/1"), "not stated in the session");
