@@ -35,7 +35,7 @@ std::vector<BarGroup> BarGroups(const ReportContext& context) {
     BarGroup& group = groups.back();
     group.largest = std::max(group.largest, *value);
     group.bars.push_back(
-        {context.layout.Say(TextAt(row, kComponent)),
+        {TextAt(row, kComponent),
          TextAt(row, kUncertainty) + " " + TextAt(row, kUnit) + ", " + TextAt(row, kShare) + " %",
          *value});
   }
@@ -59,7 +59,7 @@ void DrawGroup(const ReportContext& context, const BarGroup& group, const BarFra
   const double size_pt = std::min(8.0, 0.8 * frame.line_pt);
   const TextStyle name{Face::kRegular, size_pt, look.ink}, title{Face::kBold, size_pt, look.ink};
   const auto baseline_pt = [&] { return *top_pt - 0.5 * frame.line_pt - 0.35 * size_pt; };
-  pdf.DrawText(title, {frame.left_pt, baseline_pt()}, context.layout.Say(group.measurand));
+  pdf.DrawText(title, {frame.left_pt, baseline_pt()}, group.measurand);
   *top_pt -= frame.line_pt;
   for (std::size_t i = 0; i < group.bars.size(); ++i) {
     const Bar& bar = group.bars[i];
