@@ -52,7 +52,8 @@ class ReportCommand : public Command {
   Result<int> Run(Console& console) override {
     if (list_) return List(console);
     if (results_.empty())
-      return Error{ErrorKind::kUsage, "report: name the results folder, or ask with --list"};
+      return Error{ErrorKind::kUsage,
+                   "report: RESULTS is missing; name the results folder, or ask with --list"};
     choices_.templates = templates_;
     choices_.against = against_;
     choices_.level = level_ == "1b" ? ArchiveLevel::k1b : ArchiveLevel::k3a;
