@@ -139,6 +139,23 @@ bool MaySign(std::string_view certificate) {
          (X509_get_key_usage(parsed.get()) & (KU_DIGITAL_SIGNATURE | KU_NON_REPUDIATION)) != 0;
 }
 
+bool KeySigned(std::string_view certificate, const std::string& digest, std::string_view bytes,
+               std::string_view signature) {
+  const auto data = [](std::string_view text) {
+    return reinterpret_cast<const unsigned char*>(text.data());
+  };
+  const CertificatePtr parsed = CertificateOf(certificate);
+  EVP_PKEY* key = parsed ? X509_get0_pubkey(parsed.get()) : nullptr;
+  const EVP_MD* hash = EVP_get_digestbyname(digest.c_str());
+  const DigestContextPtr context(EVP_MD_CTX_new());
+  const bool valid = key && hash &&
+                     EVP_DigestVerifyInit(context.get(), nullptr, hash, nullptr, key) == 1 &&
+                     EVP_DigestVerify(context.get(), data(signature), signature.size(), data(bytes),
+                                      bytes.size()) == 1;
+  ERR_clear_error();
+  return valid;
+}
+
 std::optional<Validity> ValidityOf(std::string_view certificate) {
   const CertificatePtr parsed = CertificateOf(certificate);
   if (!parsed) return std::nullopt;

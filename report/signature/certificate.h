@@ -27,6 +27,9 @@ std::string SubjectText(std::string_view certificate);
 
 // Whether its key usage, if any is stated, has digitalSignature or nonRepudiation.
 bool MaySign(std::string_view certificate);
+// Whether `signature` is that of the certificate's key over these very bytes; `digest` as "SHA256".
+bool KeySigned(std::string_view certificate, const std::string& digest, std::string_view bytes,
+               std::string_view signature);
 // Seconds since 1970 between which it is valid; nothing when it is no certificate.
 struct Validity {
   long long from_s = 0, until_s = 0;

@@ -116,6 +116,12 @@ bool Matches(PKCS7* token, const std::string& signature) {
   return TS_RESP_verify_token(verifier.get(), token) == 1 && SignatureHolds(token);
 }
 
+// OpenSSL's PKCS #7 verifies the attributes as it would write them, this as they are.
+bool AttributesHold(const SignedData& data) {
+  return KeySigned(data.certificates[data.signer], data.digest, AttributesToSign(data),
+                   data.signature);
+}
+
 }  // namespace
 
 Result<std::string> RequestTimeStamp(const std::string& url, const std::string& signature) {
@@ -133,7 +139,7 @@ Result<std::string> RequestTimeStamp(const std::string& url, const std::string& 
   const auto data = ReadSignedData(token, SignedData::Kind::kTimeStamp);
   const std::string canonical = data ? EncodeSignedData(*data) : "";
   const Pkcs7Ptr parsed = FromDer<Pkcs7Ptr>(canonical, d2i_PKCS7);
-  if (!parsed || !Matches(parsed.get(), signature))
+  if (!parsed || !Matches(parsed.get(), signature) || !AttributesHold(*data))
     return OutputFailed("the time stamp of " + url +
                         " is not validly signed with RSA or EC and SHA-2: " + OpenSslReason());
   return canonical;
@@ -143,6 +149,7 @@ TimeStamp CheckTimeStamp(const std::string& token, const std::string& signature,
                          const std::vector<std::string>& trusted) {
   const auto data = ReadSignedData(token, SignedData::Kind::kTimeStamp);
   if (!data || EncodeSignedData(*data) != token) return {0, "its time stamp was changed"};
+  if (!AttributesHold(*data)) return {0, "its time stamp is not validly signed"};
   const Pkcs7Ptr parsed = FromDer<Pkcs7Ptr>(token, d2i_PKCS7);
   const auto time_s = parsed ? TimeOf(parsed.get()) : std::nullopt;
   if (!time_s || !Matches(parsed.get(), signature)) {

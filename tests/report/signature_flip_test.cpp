@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 #include "report/signature/signed_layout.h"
@@ -20,7 +21,9 @@ class Flipper {
   void ExpectRejected(std::size_t at, unsigned char mask) {
     const char before = report_[at];
     report_[at] = static_cast<char>(report_[at] ^ mask);
-    EXPECT_NE(Check(report_).failure, "") << "byte " << at << " xor " << int(mask);
+    EXPECT_NE(Check(report_).failure, "")
+        << "byte " << at << " xor " << int(mask) << " in "
+        << report_.substr(std::max<std::size_t>(at, 80) - 80, 160);
     report_[at] = before;
   }
 

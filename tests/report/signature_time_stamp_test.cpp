@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "report/signature/time_stamp.h"
 #include "signature_reports.h"
 #include "signature_responder.h"
 
@@ -27,6 +28,21 @@ TEST(TimeStamp, IsAskedForAndChecked) {
   EXPECT_EQ(check.signatures[0].timestamp_time, "2026-01-31T12:01:00Z");
   const SignatureCheck more = Check(Sign(made->bytes, "reviewer"));
   EXPECT_EQ(more.failure, "");
+}
+
+TEST(TimeStamp, HasNoFreeBit) {
+  TimeStampResponder responder;
+  const std::string signature = "a signature";
+  const std::vector<std::string> trusted = {Pki().root.Der()};
+  auto token = RequestTimeStamp(responder.url(), signature);
+  ASSERT_TRUE(token) << token.error().message;
+  EXPECT_EQ(CheckTimeStamp(*token, signature, trusted).failure, "");
+  for (std::size_t bit = 0; bit < 8 * token->size(); ++bit) {
+    std::string changed = *token;
+    changed[bit / 8] = static_cast<char>(changed[bit / 8] ^ 1 << bit % 8);
+    EXPECT_NE(CheckTimeStamp(changed, signature, trusted).failure, "")
+        << "bit " << bit % 8 << " of byte " << bit / 8 << " of " << token->size();
+  }
 }
 
 TEST(TimeStamp, BadAnswersAreNamedAndNothingIsSigned) {
