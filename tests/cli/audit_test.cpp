@@ -262,7 +262,6 @@ TEST_F(AuditTest, TheInstrumentsLogTellsOfEveryRunAndIsSigned) {
   const auto lines = LinesOf(ReadAll(log));
   ASSERT_EQ(lines.size(), 2u);
   const auto entry = nlohmann::json::parse(lines[0]).at("entry");
-  EXPECT_TRUE(entry.at("time").get<std::string>().ends_with("Z"));
   EXPECT_EQ(entry.at("body").at("verb"), "report");
   EXPECT_EQ(entry.at("body").at("exit_code"), 0);
   EXPECT_EQ(entry.at("body").at("results"), copy().string());
@@ -280,7 +279,6 @@ TEST_F(AuditTest, TheInstrumentsLogTellsOfEveryRunAndIsSigned) {
 TEST_F(AuditTest, NothingIsDoneWithABrokenLog) {
   const fs::path log = scratch() / "instrument.jsonl";
   WriteAll(log, "nonsense\n");
-  const std::string before = ReadAll(copy() / "report.pdf");
   fs::remove(copy() / "report.pdf");
   const ProgramRun run =
       RunTelestrain({"--instrument-log", log.string(), "report", copy().string()});

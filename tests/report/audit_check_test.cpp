@@ -4,10 +4,7 @@
 #include <functional>
 
 #include "base/files.h"
-#include "report/audit/file_difference.h"
 #include "report/audit/report_check.h"
-#include "report/audit/step_order.h"
-#include "report/audit/tell_audit.h"
 #include "report/audit/trail_files.h"
 #include "report/audit/verify_audit.h"
 #include "report/edited_pdf.h"
@@ -267,73 +264,6 @@ TEST_F(AuditCheckTest, WhatCannotBeReadIsNoAnswer) {
   question.subject = Results();
   question.public_key = Results() / "audit.jsonl";
   EXPECT_EQ(VerifyAudit(question).error().kind, ErrorKind::kUsage);
-}
-
-TEST(StepOrderTest, AStepTakesAwayWhatIsMadeFromIt) {
-  EXPECT_TRUE(Supersedes("calibrate", "measure"));
-  EXPECT_TRUE(Supersedes("measure", "report"));
-  EXPECT_TRUE(Supersedes("report", "sign"));
-  EXPECT_FALSE(Supersedes("measure", "calibrate"));
-  EXPECT_FALSE(Supersedes("calibrate", "calibrate"));
-  EXPECT_FALSE(Supersedes("verify", "measure"));
-  EXPECT_FALSE(Supersedes("diagnose", "render"));
-  EXPECT_FALSE(Supersedes("detect", "export"));
-}
-
-TEST_F(AuditCheckTest, AStepIsRecordedOnceUntilOneBeforeItIsDoneAnew) {
-  auto trail = AuditTrail::Open(scratch_.path() / "t.jsonl");
-  const Json a{{"x", 1}}, b{{"x", 2}};
-  ASSERT_TRUE(trail->Append("calibrate", a, "").ok());
-  ASSERT_TRUE(trail->Append("verify", a, "").ok());
-  EXPECT_TRUE(IsRecorded(*trail, "calibrate", a));
-  EXPECT_TRUE(IsRecorded(*trail, "verify", a));
-  EXPECT_FALSE(IsRecorded(*trail, "verify", b));
-  ASSERT_TRUE(trail->Append("calibrate", b, "").ok());
-  EXPECT_FALSE(IsRecorded(*trail, "verify", a));
-}
-
-TEST(FileDifferenceTest, SaysWhereTwoFilesDiffer) {
-  EXPECT_EQ(FirstDifference("a.json", "{}", "{}"), "");
-  EXPECT_EQ(FirstDifference("a.json", R"({"b":[1,2]})", R"({"b":[1,3]})"),
-            "/b/1 is 2, made again 3");
-  EXPECT_EQ(FirstDifference("a.json", R"({"b":1,"c":2})", R"({"b":1})"), "/c is new: 2");
-  EXPECT_EQ(FirstDifference("a.json", R"({"b":1})", R"({"b":1,"c":2})"),
-            "/c is missing, made again 2");
-  EXPECT_EQ(FirstDifference("a.json", R"({"b": 1})", R"({"b":1})"),
-            "the same values are written otherwise");
-  EXPECT_EQ(FirstDifference("a.csv", "h\n1,2\n", "h\n1,3\n"), "line 2 is '1,2', made again '1,3'");
-  EXPECT_EQ(FirstDifference("a.csv", "h\n", "h\n1\n"), "line 2 is '', made again '1'");
-  EXPECT_EQ(FirstDifference("a.png", std::string("\0a", 2), std::string("\0bc", 3)),
-            "byte 1 is another; it has 2 bytes, made again 3");
-}
-
-TEST(TellAuditTest, TellsStepsSignaturesAndRuns) {
-  AuditEntry step;
-  step.type = "calibrate";
-  step.body = {{"program", {{"version", "1.2.3"}}},
-               {"options", {{"outliers", "mrcal"}, {"board-warp", true}, {"compare", ""}}},
-               {"inputs", std::vector{FileOf("results", "corners.vnl", "x")}},
-               {"outputs", std::vector{FileOf("results", "calibration.json", "y")}}};
-  AuditEntry sign;
-  sign.seq = 1;
-  sign.time = "2026-01-02T03:04:05Z";
-  sign.type = "sign";
-  sign.body = {{"role", "operator"}, {"signer", "Zhang Wei"}, {"file", "report.pdf"}};
-  AuditEntry run;
-  run.seq = 2;
-  run.type = "run";
-  run.body = {{"user", "anna"},
-              {"host", {{"name", "bench"}}},
-              {"arguments", {"detect", "s", "--out", "r"}},
-              {"exit_code", 0}};
-  EXPECT_EQ(TellAudit({step, sign, run}),
-            (std::vector<std::string>{
-                "  1  Lens and views were calibrated, from 1 file; made calibration.json "
-                "(telestrain 1.2.3).",
-                "     with outliers mrcal, board-warp",
-                "  2  2026-01-02T03:04:05Z  Zhang Wei signed report.pdf as operator.",
-                "  3  anna on bench ran 'telestrain detect s --out r', which ended with 0 "
-                "(accepted)."}));
 }
 
 }  // namespace
