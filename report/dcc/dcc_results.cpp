@@ -27,7 +27,7 @@ const std::array<Group, 3>& Groups() {
       Group{"Strain of the pipe",
             {"strain"},
             {"strain-comparison", "strain-states", "pipe", "sequence", "sequence-cycles",
-             "strain-budget", "diameter-budget", "correlation"}}};
+             "strain-budget", "diameter-budget", "noise-floor", "correlation"}}};
   return kGroups;
 }
 

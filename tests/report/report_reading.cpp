@@ -3,6 +3,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "base/files.h"
 #include "base/json_file.h"
 #include "base/numbers.h"
 #include "dcc_reader.h"
@@ -24,6 +25,24 @@ ReportOptions OptionsOf(const ReportCase& report, ArchiveLevel level) {
   options.language = report.language;
   options.level = level;
   return options;
+}
+
+// The same instrument with another ruler check, as an earlier results folder inside this one.
+std::filesystem::path MakeEarlier(const std::filesystem::path& folder) {
+  Value(MakeResults(folder));
+  const std::filesystem::path earlier = folder / "earlier";
+  std::filesystem::create_directories(earlier);
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    if (entry.path().extension() == ".json")
+      std::filesystem::copy_file(entry.path(), earlier / entry.path().filename(),
+                                 std::filesystem::copy_options::overwrite_existing);
+  Json results = ReadResults(folder);
+  for (Json& table : results["tables"])
+    for (Json& row : table["rows"])
+      if (TextAt(table, "/id") == "result-files" && Printed(row[0]) == "ruler.json")
+        row[2] = Sha256Hex("another ruler check");
+  if (!WriteJson(earlier / "results.json", results)) throw std::runtime_error("not written");
+  return earlier;
 }
 
 std::string Squeezed(const Json& cell) { return WithoutSpace(Printed(cell)); }
@@ -68,7 +87,7 @@ void MakeReport(const std::filesystem::path& folder, const ReportCase& report, A
   const ReportOptions options = OptionsOf(report, level);
   const LayoutScope layout = Value(ScopeOfLayout(options));
   ReportScope scope = layout.scope;
-  if (layout.against_earlier) scope.earlier = folder;
+  if (layout.against_earlier) scope.earlier = MakeEarlier(folder);
   Value(MakeResults(folder, scope));
   if (const Status written = WriteReport(folder, options); !written)
     throw std::runtime_error(written.error().message);

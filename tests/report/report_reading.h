@@ -19,7 +19,7 @@ std::vector<ReportCase> AllReportCases();
 std::string NameOf(const ReportCase& report);
 
 // Makes results.json, dcc.xml and report.pdf of a results folder; a layout that compares with an
-// earlier report compares with the folder itself. Throws std::runtime_error with the message.
+// earlier report gets one with another ruler check. Throws std::runtime_error with the message.
 void MakeReport(const std::filesystem::path& folder, const ReportCase& report,
                 ArchiveLevel level = ArchiveLevel::k3a);
 Json ReadResults(const std::filesystem::path& folder);
