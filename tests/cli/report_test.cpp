@@ -74,7 +74,6 @@ TEST_F(ReportVerb, NothingOfARealReportIsLeftInEnglish) {
   ASSERT_EQ(RunTelestrain({"diagnose", results().string()}).exit_code, 0);
   MustRun({"verify", "measure"});
   MustWrite({});
-  const std::string english = ReadAll(results() / "report.pdf");
   for (const char* language : {"de", "zh"})
     for (const char* layout : {"acceptance", "calibration", "strain", "reverification"}) {
       std::vector<std::string> words{"--language", language, "--template", layout};
@@ -83,8 +82,6 @@ TEST_F(ReportVerb, NothingOfARealReportIsLeftInEnglish) {
       const ProgramRun run = MustWrite(words);
       EXPECT_EQ(run.err.find("printed in English"), std::string::npos) << run.err;
     }
-  MustWrite({});
-  EXPECT_EQ(ReadAll(results() / "report.pdf"), english);
 }
 
 }  // namespace
