@@ -1,5 +1,5 @@
 #include <cctype>
-#include <set>
+#include <string_view>
 
 #include "report/dcc/dcc_parts.h"
 
@@ -15,47 +15,18 @@ void WriteStatement(DccXml& xml, const std::string& name, const std::string& dec
   xml.Text("dcc:declaration", declaration);
 }
 
-// Keys of [document] that other parts of the certificate hold.
+// Keys of [document] that other parts of the certificate hold, each between blanks.
+constexpr std::string_view kPlaced =
+    " number report_number revision country country_code laboratory "
+    "laboratory_address laboratory_code customer customer_address item instrument "
+    "instrument_serial serial_numbers serial_number serial item_serial method "
+    "procedure operator reviewer approver authoriser authorised_by authorized_by "
+    "environment traceability title condition item_condition target_certificate "
+    "ruler_certificate target_serial ruler_serial camera_serial sensor_serial "
+    "lens_serial place ";
+
 bool HasPlace(const std::string& key) {
-  static const std::set<std::string> kKeys = {"number",
-                                              "report_number",
-                                              "revision",
-                                              "country",
-                                              "country_code",
-                                              "laboratory",
-                                              "laboratory_address",
-                                              "laboratory_code",
-                                              "customer",
-                                              "customer_address",
-                                              "item",
-                                              "instrument",
-                                              "instrument_serial",
-                                              "serial_numbers",
-                                              "serial_number",
-                                              "serial",
-                                              "item_serial",
-                                              "method",
-                                              "procedure",
-                                              "operator",
-                                              "reviewer",
-                                              "approver",
-                                              "authoriser",
-                                              "authorised_by",
-                                              "authorized_by",
-                                              "environment",
-                                              "traceability",
-                                              "title",
-                                              "condition",
-                                              "item_condition",
-                                              "target_certificate",
-                                              "ruler_certificate",
-                                              "target_serial",
-                                              "ruler_serial",
-                                              "camera_serial",
-                                              "sensor_serial",
-                                              "lens_serial",
-                                              "place"};
-  return kKeys.count(key) > 0;
+  return kPlaced.find(" " + key + " ") != std::string_view::npos;
 }
 
 std::string KeyAsName(std::string key) {
