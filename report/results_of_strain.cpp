@@ -118,10 +118,7 @@ void AddRejectedPoints(const Json& strain, ResultsDraft& draft) {
   if (!table.empty()) draft.AddTable(std::move(table));
 }
 
-void AddComparison(const Json& strain, ResultsDraft& draft) {
-  const Json& comparison = EntryAt(strain, "/comparison");
-  const bool has_gauges = comparison.is_object();
-  draft.measured["gauges"] = has_gauges;
+Quantity StrainError(const Json& comparison, const Acceptance& acceptance) {
   Quantity error;
   error.id = "strain_error";
   error.section = "strain";
@@ -131,12 +128,21 @@ void AddComparison(const Json& strain, ResultsDraft& draft) {
   error.decimals = 1;
   error.value = NumberAt(comparison, "/rms_error_microstrain");
   const auto with_gauges = NumberAt(comparison, "/error_uncertainty_microstrain");
-  error.expanded_uncertainty = draft.acceptance.Expanded(
+  error.expanded_uncertainty = acceptance.Expanded(
       with_gauges ? with_gauges : NumberAt(comparison, "/standard_uncertainty_microstrain"));
   error.has_uncertainty = true;
-  error.limit = draft.acceptance.strain_error_microstrain;
+  error.limit = acceptance.strain_error_microstrain;
+  return error;
+}
+
+void AddComparison(const Json& strain, ResultsDraft& draft) {
+  const Json& comparison = EntryAt(strain, "/comparison");
+  const bool has_gauges = comparison.is_object();
+  draft.measured["gauges"] = has_gauges;
+  const Quantity error = StrainError(comparison, draft.acceptance);
   draft.AddQuantity(error);
   if (!has_gauges) return;
+  const bool with_gauges = NumberAt(comparison, "/error_uncertainty_microstrain").has_value();
   draft.sentences["strain_uncertainty"] =
       with_gauges ? "U of the strain error is the coverage factor times the RMS of the standard "
                     "uncertainties over the states compared: the camera's and the gauges'."
