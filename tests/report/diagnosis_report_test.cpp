@@ -34,6 +34,11 @@ class DiagnosisReport : public ::testing::Test {
       ++count;
     return count;
   }
+  // "not measured" in the place of a chart; cells of tables say it too.
+  int MissingCharts(const std::string& text) const {
+    const std::string results = FileBytes((folder_ / "results.json").string());
+    return Count(text, "notmeasured") - Count(results, "\"not measured\"");
+  }
 
   std::filesystem::path folder_;
   ResultsFixture fixture_;
@@ -48,7 +53,7 @@ TEST_F(DiagnosisReport, ShowsEveryChart) {
         "telecentric", "mrcal agrees.", "The residuals are noise.",
         "How well the views know where they project", "View U2", "Standard uncertainty / µm"})
     EXPECT_NE(text.find(WithoutSpace(wanted)), std::string::npos) << wanted;
-  EXPECT_EQ(Count(text, "notmeasured"), 0);
+  EXPECT_EQ(MissingCharts(text), 0);
 }
 
 TEST_F(DiagnosisReport, DrawsEveryViewTwiceHoweverManyThereAre) {
@@ -92,7 +97,7 @@ TEST_F(DiagnosisReport, BrokenPartsAreDrawnAsMissing) {
   for (auto& view : residuals["views"]) view["regional"]["mean_px"] = {1, 2, 3};
   for (auto& view : residuals["views"]) view["regional"]["step_x_px"] = -1;
   fixture_.diagnosis["uncertainty"]["maps"] = {{{"view", "U1"}, {"columns", -1}}};
-  EXPECT_EQ(Count(TextOfReport(), "notmeasured"), 7);
+  EXPECT_EQ(MissingCharts(TextOfReport()), 7);
 }
 
 }  // namespace
