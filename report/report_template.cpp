@@ -131,7 +131,10 @@ Json ReportTemplate::FillValues(const Json& results) const {
 
 bool IsWanted(const Json& results, const Json& block) {
   const auto measured = [&](const char* key) {
-    return EntryAt(results, "/measured/" + TextAt(block, std::string("/") + key)) == true;
+    const std::string part = TextAt(block, std::string("/") + key);
+    if (part == "budgets")
+      return !ListAt(FindBy(ListAt(results, "/tables"), "id", "budget"), "/rows").empty();
+    return EntryAt(results, "/measured/" + part) == true;
   };
   if (block.contains("when") && !measured("when")) return false;
   return !block.contains("unless") || !measured("unless");

@@ -21,7 +21,9 @@ class DiagnosisReport : public ::testing::Test {
     WriteResults(fixture_, folder_);
     const auto made = MakeResults(folder_);
     EXPECT_TRUE(made) << made.error().message;
-    const Status written = WriteReport(folder_);
+    ReportOptions options;
+    options.name = "calibration";  // the report that shows the diagnosis and no strain
+    const Status written = WriteReport(folder_, options);
     EXPECT_TRUE(written) << written.error().message;
     return WithoutSpace(RunTool(std::string(TELESTRAIN_TOOL_PDFTOTEXT) + " -layout -enc UTF-8 '" +
                                 (folder_ / "report.pdf").string() + "' -")
@@ -42,7 +44,6 @@ class DiagnosisReport : public ::testing::Test {
       ++count;
     return count;
   }
-
   std::filesystem::path folder_;
   ResultsFixture fixture_;
 };

@@ -77,7 +77,8 @@ TEST_F(ReportReadback, EveryNumberOfARealRunStandsInEveryReport) {
   ExpectEverythingPrinted();
 }
 
-// All tables of the results are in the layout of everything.
+// All tables of the results are in the layout of everything; those of a single measurand's budget
+// stand together in the table "budget".
 TEST_F(ReportReadback, NoTableIsLeftOutOfTheAcceptanceReport) {
   WriteFixture();
   MakeReport(folder_, {"acceptance", "en"});
@@ -85,8 +86,10 @@ TEST_F(ReportReadback, NoTableIsLeftOutOfTheAcceptanceReport) {
   std::set<std::string> drawn;
   for (const Json& block : layout.blocks()) drawn.insert(TextAt(block, "/table"));
   const Json results = ReadResults(folder_);
-  for (const Json& table : ListAt(results, "/tables"))
-    EXPECT_EQ(drawn.count(TextAt(table, "/id")), 1u) << TextAt(table, "/id");
+  for (const Json& table : ListAt(results, "/tables")) {
+    const std::string id = TextAt(table, "/id");
+    EXPECT_EQ(drawn.count(id.ends_with("-budget") ? "budget" : id), 1u) << id;
+  }
 }
 
 // The check must see a number that differs in its last digit, a unit and a verdict.
