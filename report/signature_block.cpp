@@ -1,6 +1,10 @@
 #include "report/signature_block.h"
 
+#include <algorithm>
 #include <cctype>
+
+#include "report/signature/signature_boxes.h"
+#include "report/signature/signature_picture.h"
 
 namespace telestrain {
 namespace {
@@ -21,15 +25,18 @@ class SignatureBoxes {
   SignatureBoxes(const ReportContext& context, const std::string& note)
       : context_(context), flow_(context.flow), look_(context.flow.look()), note_(note) {}
 
-  // Name above, the line to sign on below, what belongs there under it.
+  // Name above, the line to sign on below, what belongs there under it. The field lies over line
+  // and note: the picture of a signature takes their place.
   void DrawRole(const PageBox& box, const std::string& role) {
     DrawFrame(box);
-    const double inner_pt = box.width_pt - 2 * kInset_pt, line_pt = box.bottom_pt + 24;
+    const double inner_pt = std::min(box.width_pt - 2 * kInset_pt, kWidestBox_pt);
+    const double line_pt = box.bottom_pt + 24;
     const PagePoint line{box.left_pt + kInset_pt, line_pt};
     flow_.pdf().DrawLine(line, {line.x_pt + inner_pt, line_pt}, {look_.muted, 0.5});
-    const double name_pt = DrawWords(NameStyle(), {line.x_pt, box.top_pt() - 6}, inner_pt,
-                                     context_.layout.Say(role));
-    AddField(role, {line.x_pt, line_pt + 1, inner_pt, box.top_pt() - 6 - name_pt - line_pt - 2});
+    const double name_pt =
+        DrawWords(NameStyle(), {line.x_pt, box.top_pt() - 6}, inner_pt, context_.layout.Say(role));
+    const double field_pt = box.bottom_pt + 3;
+    AddField(role, {line.x_pt, field_pt, inner_pt, box.top_pt() - 7 - name_pt - field_pt});
     DrawWords(NoteStyle(), {line.x_pt, line_pt - 3}, inner_pt, note_);
   }
 
@@ -38,19 +45,18 @@ class SignatureBoxes {
     DrawFrame(box);
     const double half_pt = box.width_pt / 2 - kInset_pt;
     const PagePoint at{box.left_pt + kInset_pt, box.top_pt() - 6};
-    const double name_pt =
-        DrawWords(NameStyle(), at, half_pt, context_.layout.Say(kInstrument));
+    const double name_pt = DrawWords(NameStyle(), at, half_pt, context_.layout.Say(kInstrument));
     DrawWords(NoteStyle(), {at.x_pt, at.y_pt - name_pt}, half_pt,
               context_.layout.Say("Seal of the instrument"));
-    AddField(kInstrument,
-             {box.left_pt + box.width_pt / 2, box.bottom_pt + 2, half_pt, box.height_pt - 4});
+    AddField(kInstrument, {box.left_pt + box.width_pt / 2, box.bottom_pt + 2,
+                           std::min(half_pt, kWidestBox_pt), box.height_pt - 4});
   }
 
  private:
   TextStyle NameStyle() const { return {Face::kBold, 9, look_.accent}; }
   TextStyle NoteStyle() const { return {Face::kRegular, 7.5, look_.muted}; }
   void DrawFrame(const PageBox& box) {
-    flow_.pdf().FillBox(box, ColorOf(0xFAFBFC));
+    flow_.pdf().FillBox(box, kSignatureGround);
     flow_.pdf().StrokeBox(box, {look_.line, 0.8});
   }
   double DrawWords(const TextStyle& style, PagePoint at, double width_pt, const std::string& text) {

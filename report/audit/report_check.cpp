@@ -99,7 +99,8 @@ Result<std::string> Signatures(const std::string& name, const std::string& bytes
   if (check.signatures.empty()) return std::string("not signed");
   std::string text;
   for (const PdfSignature& signature : check.signatures) {
-    text += (text.empty() ? "signed by " : ", ") + signature.role + " " + signature.signer;
+    text += (text.empty() ? "signed by " : ", ") + signature.role + " " + signature.signer + " (" +
+            TimeText(signature) + ")";
     if (folder && !IsRecorded(folder->entries, signature.role))
       text += " (not told of in the audit trail)";
   }

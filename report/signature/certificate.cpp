@@ -17,14 +17,40 @@ std::vector<DerNode> FieldsOf(std::string_view certificate) {
   const auto parts = outer ? DerChildren(outer->content) : std::nullopt;
   if (!parts || parts->empty()) return {};
   auto fields = DerChildren(parts->front().content);
-  if (!fields || fields->size() < 7) return {};
-  if (fields->front().tag == kDerContext0) fields->erase(fields->begin());  // version
-  return *fields;
+  if (!fields || fields->empty()) return {};
+  if (fields->front().tag == kDerContext0) fields->erase(fields->begin());  // version 2 or 3
+  return fields->size() < 6 ? std::vector<DerNode>() : *fields;
 }
 
 long long SecondsOf(const ASN1_TIME* time) {
   std::tm parts{};
   return ASN1_TIME_to_tm(time, &parts) == 1 ? static_cast<long long>(::timegm(&parts)) : 0;
+}
+
+// For persons' signatures: e-mail, documents (RFC 9336, Adobe's), any.
+bool IsForDocuments(X509* certificate) {
+  struct Free {
+    void operator()(EXTENDED_KEY_USAGE* list) const { EXTENDED_KEY_USAGE_free(list); }
+  };
+  const std::unique_ptr<EXTENDED_KEY_USAGE, Free> uses(static_cast<EXTENDED_KEY_USAGE*>(
+      X509_get_ext_d2i(certificate, NID_ext_key_usage, nullptr, nullptr)));
+  if (!uses) return true;
+  for (int i = 0; i < sk_ASN1_OBJECT_num(uses.get()); ++i) {
+    char text[80] = "";
+    OBJ_obj2txt(text, sizeof text, sk_ASN1_OBJECT_value(uses.get(), i), 1);
+    for (const std::string_view accepted :
+         {"1.3.6.1.5.5.7.3.4", "1.3.6.1.5.5.7.3.36", "1.2.840.113583.1.1.5", "2.5.29.37.0"})
+      if (accepted == text) return true;
+  }
+  return false;
+}
+
+// What OpenSSL found, and in which certificate if not the signer's.
+std::string Reason(X509_STORE_CTX* context, const std::string& signer) {
+  std::string reason = X509_verify_cert_error_string(X509_STORE_CTX_get_error(context));
+  X509* const where = X509_STORE_CTX_get_current_cert(context);
+  const std::string certificate = where ? DerOf(where, i2d_X509) : signer;
+  return certificate == signer ? reason : reason + ", that of " + CommonName(certificate);
 }
 
 // The chain from the signer to the first trusted certificate; empty with a reason in `failure`.
@@ -48,7 +74,7 @@ std::vector<std::string> VerifiedChain(const ChainQuestion& question, std::strin
                          question.time_stamping ? X509_PURPOSE_TIMESTAMP_SIGN : X509_PURPOSE_ANY);
   X509_STORE_CTX_init(context.get(), store.get(), signer.get(), embedded.get());
   if (X509_verify_cert(context.get()) != 1) {
-    *failure = X509_verify_cert_error_string(X509_STORE_CTX_get_error(context.get()));
+    *failure = Reason(context.get(), question.signer);
     ERR_clear_error();
     return {};
   }
@@ -132,11 +158,24 @@ std::string CommonName(std::string_view certificate) {
   return name;
 }
 
-bool MaySign(std::string_view certificate) {
+std::string SigningUseFailure(std::string_view certificate) {
   const CertificatePtr parsed = CertificateOf(certificate);
+  const std::string name = "the certificate of " + CommonName(certificate);
+  if (!parsed) return name + " is malformed";
+  if (X509_get_version(parsed.get()) != X509_VERSION_3)
+    return name + " is of X.509 version " + std::to_string(X509_get_version(parsed.get()) + 1) +
+           ", which cannot say what its key is for; have one of version 3 issued (openssl x509 "
+           "-req makes it when it is given -extfile)";
   // All bits are set when the certificate does not restrict its use.
-  return parsed &&
-         (X509_get_key_usage(parsed.get()) & (KU_DIGITAL_SIGNATURE | KU_NON_REPUDIATION)) != 0;
+  if ((X509_get_key_usage(parsed.get()) & (KU_DIGITAL_SIGNATURE | KU_NON_REPUDIATION)) == 0)
+    return name +
+           " is not for signatures: its key usage has neither digitalSignature nor nonRepudiation";
+  if (!IsForDocuments(parsed.get()))
+    return name +
+           " is not for signatures of documents: its extended key usage has none of "
+           "emailProtection, documentSigning, Adobe's document signing and anyExtendedKeyUsage";
+  ERR_clear_error();
+  return "";
 }
 
 bool KeySigned(std::string_view certificate, const std::string& digest, std::string_view bytes,
@@ -170,11 +209,16 @@ Result<std::vector<std::string>> ReadCertificates(const std::vector<std::filesys
     const std::size_t before = certificates.size();
     if (const CertificatePtr one = CertificateOf(text)) certificates.push_back(text);
     const BioPtr pem = BioOf(text);
+    ERR_clear_error();
     while (const CertificatePtr next{PEM_read_bio_X509(pem.get(), nullptr, nullptr, nullptr)})
       certificates.push_back(DerOf(next.get(), i2d_X509));
+    const bool at_end = ERR_GET_REASON(ERR_peek_last_error()) == PEM_R_NO_START_LINE;
     ERR_clear_error();
     if (certificates.size() == before)
       return BadInput(file.string() + ": has no certificate; want a PEM or DER file of X.509");
+    if (!at_end)
+      return BadInput(file.string() + ": its certificate " +
+                      std::to_string(certificates.size() - before + 1) + " is malformed");
   }
   return certificates;
 }
@@ -188,9 +232,7 @@ std::string ChainFailure(const ChainQuestion& question) {
     if (std::find(chain.begin(), chain.end(), certificate) == chain.end())
       return "the certificate of " + CommonName(certificate) +
              " came with it but is no part of the trusted chain; trust the root instead";
-  if (!question.time_stamping && !MaySign(question.signer))
-    return "the certificate of " + CommonName(question.signer) + " is not for signatures";
-  return "";
+  return question.time_stamping ? "" : SigningUseFailure(question.signer);
 }
 
 }  // namespace telestrain

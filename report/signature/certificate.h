@@ -25,8 +25,10 @@ std::string KeyAlgorithm(std::string_view certificate);
 std::string CommonName(std::string_view certificate);
 std::string SubjectText(std::string_view certificate);
 
-// Whether its key usage, if any is stated, has digitalSignature or nonRepudiation.
-bool MaySign(std::string_view certificate);
+// Empty when documents may be signed with its key: it is of X.509 version 3, its key usage, if any
+// is stated, has digitalSignature or nonRepudiation, its extended key usage, if any, one of
+// emailProtection, documentSigning (RFC 9336), Adobe's and any. Else the reason.
+std::string SigningUseFailure(std::string_view certificate);
 // Whether `signature` is that of the certificate's key over these very bytes; `digest` as "SHA256".
 bool KeySigned(std::string_view certificate, const std::string& digest, std::string_view bytes,
                std::string_view signature);

@@ -4,6 +4,7 @@
 #include "report/signature/certificate.h"
 #include "report/signature/der.h"
 #include "report/signature/openssl_objects.h"
+#include "report/signature/sign_rules.h"
 #include "report/signature/signed_data.h"
 #include "report/signature/time_stamp.h"
 #include "report/signature/utc_time.h"
@@ -49,9 +50,17 @@ std::string TrustFailure(const SignedData& data, const RawSignature& signature,
     const TimeStamp stamp = CheckTimeStamp(data.time_stamp, data.signature, trusted);
     if (!stamp.failure.empty()) return stamp.failure;
     check->time_stamp_time = IsoTime(stamp.time_s);
+    if (auto failure = ClockFailure(*claimed, stamp.time_s); !failure.empty()) return failure;
     question.time_s = stamp.time_s;
   }
-  return ChainFailure(question);
+  const std::string failure = ChainFailure(question);
+  const long long now_s = CurrentTime_s();
+  if (!failure.empty() || !data.time_stamp.empty() || now_s <= question.time_s) return failure;
+  // The signer's own clock could have been set back to when the certificate was valid.
+  question.time_s = now_s;
+  return ChainFailure(question).empty()
+             ? ""
+             : "its certificate has expired and no time stamp proves that it was signed before";
 }
 
 }  // namespace

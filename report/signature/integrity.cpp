@@ -6,6 +6,8 @@
 #include "report/signature/opened_pdf.h"
 #include "report/signature/revision_changes.h"
 #include "report/signature/roles.h"
+#include "report/signature/sign_rules.h"
+#include "report/signature/signature_boxes.h"
 #include "report/signature/signed_layout.h"
 #include "report/signature/utc_time.h"
 
@@ -26,7 +28,7 @@ bool IsSeal(Object references) {
 }
 
 // The signature's dictionary holds what telestrain writes and nothing else.
-std::string ValueFailure(Object value, const std::string& role) {
+std::string ValueFailure(Object value, const RawSignature& raw) {
   static const std::set<std::string> kKeys = {"/Type",     "/Filter",   "/SubFilter", "/M",
                                               "/Name",     "/Reason",   "/Location",  "/ByteRange",
                                               "/Contents", "/Reference"};
@@ -35,9 +37,11 @@ std::string ValueFailure(Object value, const std::string& role) {
   if (!value.getKey("/Type").isNameAndEquals("/Sig") ||
       !value.getKey("/SubFilter").isNameAndEquals("/ETSI.CAdES.detached"))
     return "its signature is of another kind than ETSI.CAdES.detached";
-  if (role == kSealingRole && !IsSeal(value.getKey("/Reference")))
+  if (!value.getKey("/M").isString() || value.getKey("/M").getUTF8Value() != raw.claimed_time)
+    return "its signature has two times";
+  if (raw.role == kSealingRole && !IsSeal(value.getKey("/Reference")))
     return "the instrument's seal does not forbid changes (DocMDP, P 2)";
-  if (role != kSealingRole && value.hasKey("/Reference"))
+  if (raw.role != kSealingRole && value.hasKey("/Reference"))
     return "only the instrument seals (DocMDP)";
   return "";
 }
@@ -69,6 +73,7 @@ class IntegrityCheck {
     result_.failure = layout_.failure;
     if (result_.failure.empty()) CheckAllContents();
     if (result_.failure.empty()) result_.failure = RevisionsFailure();
+    if (result_.failure.empty()) result_.failure = OrderFailure(result_.signatures);
     return result_;
   }
 
@@ -103,6 +108,8 @@ class IntegrityCheck {
         previous.pdf->getTrailer().hasKey("/Prev") || previous.pdf->getTrailer().hasKey("/XRefStm"))
       return "the file has a revision that no signature made";
     if (const auto failure = FieldsFailure(*previous.pdf, {}); !failure.empty()) return failure;
+    if (!layout_.signatures.empty())
+      if (const auto failure = BoxesFailure(*previous.pdf); !failure.empty()) return failure;
     for (std::size_t i = 0; i < layout_.signatures.size(); ++i) {
       const RawSignature& raw = layout_.signatures[i];
       std::string bytes = bytes_.substr(0, raw.end);
@@ -122,7 +129,7 @@ class IntegrityCheck {
     Object value = after.getObjectByID(raw.object, 0);
     if (!value.isDictionary()) return name + "its signature is missing";
     if (raw.role == kSealingRole && index != 0) return name + "seals after another signature";
-    if (const auto failure = ValueFailure(value, raw.role); !failure.empty()) return name + failure;
+    if (const auto failure = ValueFailure(value, raw); !failure.empty()) return name + failure;
     const std::string change = ForbiddenChange(before, after, {raw.role, raw.object});
     if (!change.empty() && index == 0) return name + "while it was signed, " + change;
     if (!change.empty())

@@ -11,8 +11,12 @@ OpenedPdf OpenPdf(const std::string& bytes) {
   opened.pdf->setAttemptRecovery(false);
   try {
     opened.pdf->processMemoryFile("report", bytes.data(), bytes.size());
-    // Every object once, so that damage shows now.
-    opened.pdf->getAllObjects();
+    // Every object once, so that damage shows now. Numbers are used once: an object of another
+    // generation would be a second one of the same number.
+    for (const QPDFObjectHandle& object : opened.pdf->getAllObjects())
+      if (object.getGeneration() != 0)
+        opened.failure = "the PDF has an object of another generation than 0, number " +
+                         std::to_string(object.getObjectID()) + ", which telestrain never writes";
     if (opened.pdf->isEncrypted()) opened.failure = "the PDF is encrypted";
   } catch (const std::exception& error) {
     opened.failure = std::string("the PDF is damaged: ") + error.what();

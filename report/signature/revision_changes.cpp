@@ -6,6 +6,7 @@
 #include "report/signature/object_names.h"
 #include "report/signature/opened_pdf.h"
 #include "report/signature/roles.h"
+#include "report/signature/signature_boxes.h"
 
 namespace telestrain {
 namespace {
@@ -81,13 +82,13 @@ class Comparison {
   bool IsAllowed(Object object, Object now) {
     const int number = object.getObjectID();
     if (number == before_.getRoot().getObjectID())
-      return SameExcept(object, now, {"/AcroForm", "/Perms", "/DSS"}) &&
+      return SameExcept(object, now, {"/AcroForm", "/Perms"}) &&
              MayBePerms(object.getKey("/Perms"), now.getKey("/Perms")) &&
              MayBeForm(object.getKey("/AcroForm"), now.getKey("/AcroForm"));
     if (form_.isIndirect() && number == form_.getObjectID()) return MayBeForm(object, now, true);
     if (number == field_)
       return SameExcept(object, now, {"/V", "/AP"}) && !object.hasKey("/V") &&
-             IsSignature(now.getKey("/V")) && MayBePicture(now.getKey("/AP"));
+             IsSignature(now.getKey("/V")) && MayBePicture(now);
     if (pages_.count(number) > 0)
       return SameExcept(object, now, {"/Annots"}) &&
              MayGrow(object.getKey("/Annots"), now.getKey("/Annots"));
@@ -99,9 +100,10 @@ class Comparison {
            old_.count(update_.object) == 0;
   }
 
-  // The field's box is fixed, so the picture cannot cover anything else.
-  static bool MayBePicture(Object appearance) {
-    return appearance.isNull() || SameExcept(appearance, Object::newDictionary(), {"/N"});
+  // The field's box is fixed (BoxesFailure), so the picture cannot cover anything else.
+  static bool MayBePicture(Object field) {
+    Object appearance = field.getKey("/AP");
+    return appearance.isNull() || FillsBox(appearance, field.getKey("/Rect"));
   }
 
   bool MayBePerms(Object was, Object is) {

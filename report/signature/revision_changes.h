@@ -13,9 +13,10 @@ struct SignedUpdate {
 };
 
 // Compares every object of a revision with the next one, which a signature added. Only these may
-// differ: the value and picture of the role's field, the form's flags, one invisible field appended
-// to the form and to a page's annotations, the catalog's /DSS, and its /Perms by the instrument's
-// seal. Returns what else was changed, as "page 3's content (object 12) was changed", or nothing.
+// differ: the value of the role's field and its picture, which fills the field's box; the form's
+// flags; one invisible field appended to the form and to a page's annotations; the catalog's /Perms
+// by the instrument's seal. Returns what else was changed, as "page 3's content (object 12) was
+// changed", or nothing.
 std::string ForbiddenChange(QPDF& before, QPDF& after, const SignedUpdate& update);
 
 }  // namespace telestrain

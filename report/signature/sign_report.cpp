@@ -10,6 +10,8 @@
 #include "report/signature/opened_pdf.h"
 #include "report/signature/pdf_update.h"
 #include "report/signature/roles.h"
+#include "report/signature/sign_rules.h"
+#include "report/signature/signature_boxes.h"
 #include "report/signature/signature_picture.h"
 #include "report/signature/signed_data.h"
 #include "report/signature/signed_layout.h"
@@ -32,9 +34,10 @@ bool IsOurs(QPDF& pdf, const std::string& bytes) {
          id.getArrayNItems() == 2 && LastTable(bytes) != 0;
 }
 
-// Earlier signatures hold and leave room for this one.
-Status CheckEarlier(const std::string& bytes, const std::string& role) {
-  const SignatureCheck earlier = CheckIntegrity(bytes, nullptr);
+// Earlier signatures hold and leave room for this one, at its time and with its certificate.
+Status CheckEarlier(const std::string& bytes, const SigningKey& key, const SignOptions& options) {
+  const std::string& role = options.role;
+  SignatureCheck earlier = CheckIntegrity(bytes, nullptr);
   if (!earlier.failure.empty()) return BadInput(earlier.failure + "; it cannot be signed");
   for (const PdfSignature& signature : earlier.signatures)
     if (signature.role == role)
@@ -43,7 +46,18 @@ Status CheckEarlier(const std::string& bytes, const std::string& role) {
   if (role == kSealingRole && !earlier.signatures.empty())
     return BadInput("the instrument seals first, but the " + earlier.signatures[0].role +
                     " has signed; write the report again and begin with the instrument");
-  return {};
+  PdfSignature next;
+  next.role = role;
+  next.fingerprint = Sha256Hex(key.certificate);
+  next.claimed_time = IsoTime(options.time_s);
+  earlier.signatures.push_back(next);
+  const std::string failure = OrderFailure(earlier.signatures);
+  return failure.empty() ? Status() : BadInput(failure);
+}
+
+// The certificate's name; what the signer gives as name only stands beside it.
+std::string ShownName(const std::string& common_name, const std::string& given) {
+  return given.empty() || given == common_name ? common_name : common_name + " (" + given + ")";
 }
 
 class Signing {
@@ -53,7 +67,8 @@ class Signing {
         key_(key),
         options_(options),
         update_(pdf, bytes),
-        name_(options.name.empty() ? CommonName(key.certificate) : options.name) {}
+        signer_(CommonName(key.certificate)),
+        name_(ShownName(signer_, options.name)) {}
 
   Result<SignedReport> Run() {
     signature_ = pdf_.makeIndirectObject(Object::newDictionary());
@@ -68,7 +83,9 @@ class Signing {
                           std::to_string(Reserve_bytes()) +
                           " are reserved; use a responder with a shorter certificate chain");
     prepared.bytes.replace(prepared.gap_begin + 1, 2 * der.size(), HexOf(der));
-    return SignedReport{prepared.bytes, name_, Sha256Hex(key_.certificate)};
+    if (const auto check = CheckIntegrity(prepared.bytes, nullptr); !check.failure.empty())
+      return OutputFailed("the signed file would not hold: " + check.failure);
+    return SignedReport{prepared.bytes, signer_, Sha256Hex(key_.certificate)};
   }
 
  private:
@@ -155,12 +172,10 @@ class Signing {
   }
 
   std::string Entries() const {
-    std::string entries =
-        "/Type /Sig /Filter /Adobe.PPKLite /SubFilter /ETSI.CAdES.detached\n/M (" +
-        PdfTime(options_.time_s) + ")";
+    std::string entries = std::string(kSignatureHead) + PdfTime(options_.time_s) + ")";
     const auto add = [&](const char* key, const std::string& text) {
       if (!text.empty())
-        entries += std::string("\n") + key + " " + Object::newUnicodeString(text).unparse();
+        entries += std::string("\n") + key + " " + Object::newUnicodeString(text).unparseBinary();
     };
     add("/Name", name_);
     add("/Reason", options_.reason);
@@ -188,6 +203,9 @@ class Signing {
     if (!options_.time_stamp_url.empty()) {
       TELESTRAIN_ASSIGN_OR_RETURN(data.time_stamp,
                                   RequestTimeStamp(options_.time_stamp_url, data.signature));
+      const long long stamped_s = CheckTimeStamp(data.time_stamp, data.signature, {}).time_s;
+      if (const auto failure = ClockFailure(options_.time_s, stamped_s); !failure.empty())
+        return BadInput(options_.role + ": " + failure + "; set the clock or --time right");
     }
     return EncodeSignedData(data);
   }
@@ -196,7 +214,7 @@ class Signing {
   const SigningKey& key_;
   const SignOptions& options_;
   PdfUpdate update_;
-  std::string name_;
+  std::string signer_, name_;  // of the certificate, and as shown
   Object signature_;
   std::string picture_bytes_;  // outlives what is copied from it
   QPDF picture_pdf_;
@@ -210,13 +228,16 @@ Result<SignedReport> SignReport(const std::string& file, const std::string& byte
     return Error{ErrorKind::kUsage, "the role '" + options.role +
                                         "' is none of instrument, operator, reviewer, approver"};
   TELESTRAIN_RETURN_IF_ERROR(CheckSigningKey(key, options.time_s));
+  if (!bytes.starts_with("%PDF-")) return BadInput(file + ": is not a PDF");
   const OpenedPdf opened = OpenPdf(bytes);
   if (!opened.pdf) return BadInput(file + ": " + opened.failure + "; it is not signed");
   try {
     if (!IsOurs(*opened.pdf, bytes))
       return BadInput(file + ": is no report that telestrain wrote; only those are signed");
-    if (const Status earlier = CheckEarlier(bytes, options.role); !earlier)
+    if (const Status earlier = CheckEarlier(bytes, key, options); !earlier)
       return BadInput(file + ": " + earlier.error().message);
+    if (const auto boxes = BoxesFailure(*opened.pdf); !boxes.empty())
+      return BadInput(file + ": " + boxes + "; it is not signed");
     return Signing(*opened.pdf, bytes, key, options).Run();
   } catch (const std::exception& error) {  // libqpdf throws where an object is damaged
     return BadInput(file + ": the PDF is damaged: " + error.what());

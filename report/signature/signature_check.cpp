@@ -7,6 +7,11 @@
 
 namespace telestrain {
 
+std::string TimeText(const PdfSignature& signature) {
+  return signature.timestamp_time.empty() ? "signed " + signature.claimed_time + " by its own clock"
+                                          : "time-stamped " + signature.timestamp_time;
+}
+
 Result<SignatureCheck> CheckSignatures(const std::string& bytes, const TrustOptions& trust) {
   TELESTRAIN_ASSIGN_OR_RETURN(const auto trusted, ReadCertificates(trust.certificates));
   SignatureCheck check = CheckIntegrity(bytes, trusted.empty() ? nullptr : &trusted);

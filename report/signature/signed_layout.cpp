@@ -16,6 +16,8 @@ constexpr std::string_view kEndObject = "\nendobj\n";
 constexpr std::string_view kTableHead = "xref\n0 1\n0000000000 65535 f \n";
 constexpr std::size_t kRangeWidth = 46;  // "0" and three numbers of up to 14 digits
 
+std::string ObjectHead(int number) { return std::to_string(number) + " 0 obj\n"; }
+
 // Reads a text piece by piece; once something is not as wanted, all that follows fails.
 class Scanner {
  public:
@@ -92,8 +94,7 @@ bool ObjectsAreWithoutGap(std::string_view bytes, const UpdateTail& tail, std::s
     const std::size_t end = i + 1 < order.size() ? order[i + 1].first : table;
     if (order[i].first >= end || end > table) return false;
     const auto object = bytes.substr(order[i].first, end - order[i].first);
-    if (!object.starts_with(std::to_string(order[i].second) + " 0 obj\n") ||
-        !object.ends_with(kEndObject))
+    if (!object.starts_with(ObjectHead(order[i].second)) || !object.ends_with(kEndObject))
       return false;
     // A stream's data may hold any bytes.
     const std::size_t first_end = object.find(kEndObject) + kEndObject.size();
@@ -154,9 +155,10 @@ bool ReadUpdate(std::string_view bytes, RawSignature* signature) {
   signature->begin = first->second;
   signature->object = last->first;
   const auto before = bytes.substr(0, signature->begin);
-  const auto object = whole.substr(last->second);
-  Scanner scan(object, std::min(object.find("/M ("), object.size()));
-  scan.Skip("/M (");
+  Scanner scan(whole.substr(last->second), 0);
+  scan.Skip(ObjectHead(signature->object));
+  scan.Skip("<< ");
+  if (!scan.Skip(kSignatureHead)) return false;
   signature->claimed_time = scan.Until(")");
   return LastTable(before) == tail->previous && tail->previous != 0;
 }
@@ -177,7 +179,7 @@ std::string TailText(const UpdateTail& tail, std::size_t begin) {
 }
 
 std::string ObjectText(int number, std::string_view content) {
-  return std::to_string(number) + " 0 obj\n" + std::string(content) + std::string(kEndObject);
+  return ObjectHead(number).append(content).append(kEndObject);
 }
 
 SignatureRoom MakeSignatureRoom(int number, const std::string& entries, std::size_t reserve_bytes) {
@@ -186,7 +188,7 @@ SignatureRoom MakeSignatureRoom(int number, const std::string& entries, std::siz
   SignatureRoom room;
   room.text = ObjectText(
       number, head + std::string(kRangeWidth, ' ') + std::string(kContents) + gap + "\n>>");
-  room.range_begin = room.text.find(kRange) + kRange.size();
+  room.range_begin = ObjectHead(number).size() + head.size();
   room.gap_begin = room.range_begin + kRangeWidth + kContents.size();
   room.gap_end = room.gap_begin + gap.size();
   return room;

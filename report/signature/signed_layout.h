@@ -24,7 +24,12 @@ std::string TailText(const UpdateTail& tail, std::size_t begin);
 // The text of an object, "7 0 obj\n…\nendobj\n".
 std::string ObjectText(int number, std::string_view content);
 
-// The signature's value. `entries` is what stands before ByteRange.
+// What every signature's value begins with; its time as PdfTime and the other entries follow.
+inline constexpr std::string_view kSignatureHead =
+    "/Type /Sig /Filter /Adobe.PPKLite /SubFilter /ETSI.CAdES.detached\n/M (";
+
+// The signature's value. `entries` is what stands before ByteRange: kSignatureHead first, texts of
+// the signer only in hex, so that they hold no text that has a meaning here.
 struct SignatureRoom {
   std::string text;             // of the object, with a ByteRange of blanks
   std::size_t range_begin = 0;  // in `text`

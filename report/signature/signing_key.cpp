@@ -3,6 +3,7 @@
 #include <openssl/ui.h>
 
 #include <cstring>
+#include <exception>
 
 #include "report/signature/certificate.h"
 #include "report/signature/openssl_objects.h"
@@ -26,20 +27,31 @@ struct Password {
   bool asked = false;
   std::string text;
   std::optional<Error> error;
+  ~Password() { WipePassword(&text); }
 };
+
+void Ask(Password* password) {
+  password->asked = true;
+  if (!password->sources.password) {
+    password->error = BadInput(password->source + ": needs a password");
+    return;
+  }
+  auto given = password->sources.password(password->source);
+  if (!given) {
+    password->error = given.error();
+    return;
+  }
+  password->text = *given;
+  WipePassword(&*given);
+}
 
 // OpenSSL's pem_password_cb.
 int GivePassword(char* buffer, int size, int, void* user) {
   auto& password = *static_cast<Password*>(user);
-  if (!password.asked) {
-    password.asked = true;
-    auto given = password.sources.password
-                     ? password.sources.password(password.source)
-                     : Result<std::string>(BadInput(password.source + ": needs a password"));
-    if (given)
-      password.text = *given;
-    else
-      password.error = given.error();
+  try {
+    if (!password.asked) Ask(&password);
+  } catch (const std::exception& error) {  // it must not pass through OpenSSL's C functions
+    password.error = BadInput(password.source + ": no password: " + error.what());
   }
   if (password.error || password.text.size() > static_cast<std::size_t>(size)) return -1;
   std::memcpy(buffer, password.text.data(), password.text.size());
@@ -110,6 +122,11 @@ bool IsSelfSigned(const std::string& der) {
 
 }  // namespace
 
+void WipePassword(std::string* text) {
+  OPENSSL_cleanse(text->data(), text->size());
+  text->clear();
+}
+
 Result<SigningKey> LoadSigningKey(const KeySources& sources) {
   Loaded loaded;
   Password password{sources, "", false, "", std::nullopt};
@@ -134,6 +151,7 @@ Result<SigningKey> LoadSigningKey(const KeySources& sources) {
 Status CheckSigningKey(const SigningKey& key, long long time_s) {
   const auto validity = ValidityOf(key.certificate);
   const std::string name = "the certificate of " + CommonName(key.certificate);
+  if (const auto use = SigningUseFailure(key.certificate); !use.empty()) return BadInput(use);
   if (!validity) return BadInput(name + " is malformed");
   if (time_s < validity->from_s)
     return BadInput(name + " is valid only from " + IsoTime(validity->from_s) +
@@ -141,10 +159,6 @@ Status CheckSigningKey(const SigningKey& key, long long time_s) {
   if (time_s > validity->until_s)
     return BadInput(name + " expired at " + IsoTime(validity->until_s) + ", the signature is of " +
                     IsoTime(time_s) + "; sign with a new certificate");
-  if (!MaySign(key.certificate))
-    return BadInput(name +
-                    " is not for signatures: its key usage has neither digitalSignature nor "
-                    "nonRepudiation");
   return {};
 }
 

@@ -26,13 +26,16 @@ struct SigningKey {
   std::vector<std::string> chain;  // the others that came along, without self-signed ones
 };
 
+// Overwrites a password and empties it.
+void WipePassword(std::string* text);
+
 // Loads them with OpenSSL's store. Fails (kBadInput) when something cannot be opened, the password
 // is wrong, there is not exactly one private key, no certificate belongs to it, or it is of
 // another kind than RSA of 2048 bit and more or EC on P-256 or P-384.
 Result<SigningKey> LoadSigningKey(const KeySources& sources);
 
 // Fails (kBadInput) when the certificate is not valid at that time (seconds since 1970) or is not
-// for signatures.
+// for signatures (SigningUseFailure).
 Status CheckSigningKey(const SigningKey& key, long long time_s);
 
 // The signature of `bytes` with SHA-256. Fails (kOutputFailed) when the key refuses.

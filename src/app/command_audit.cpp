@@ -4,6 +4,7 @@
 #include "app/command.h"
 #include "report/audit/tell_audit.h"
 #include "report/audit/verify_audit.h"
+#include "report/signature/certificate.h"
 
 // clang-format off
 // telestrain audit verify results
@@ -72,6 +73,8 @@ class AuditCommand : public Command {
   }
   Result<int> Verify(Console& console) {
     question_.trust.certificates.assign(trusted_.begin(), trusted_.end());
+    if (const auto read = ReadCertificates(question_.trust.certificates); !read)
+      return read.error();
     TELESTRAIN_ASSIGN_OR_RETURN(const AuditAnswer answer, VerifyAudit(question_));
     console.Say(answer.line);
     return answer.passed ? 0 : 1;

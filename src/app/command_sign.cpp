@@ -27,7 +27,7 @@ class SignCommand : public Command {
         ->check(
             CLI::IsMember(std::vector<std::string>(kSigningRoles.begin(), kSigningRoles.end())));
     AddKeyOptions(app);
-    app.add_option("--name", arguments_.name, "signer's name (default: the certificate's)");
+    app.add_option("--name", arguments_.name, "shown beside the certificate's name");
     app.add_option("--reason", arguments_.reason, "why, as 'Results checked'");
     app.add_option("--place", arguments_.place, "where");
     app.add_option("--time", arguments_.time,
@@ -49,7 +49,8 @@ class SignCommand : public Command {
     app.add_option("--chain", arguments_.chain,
                    "PEM file of the authorities between it and a root");
     app.add_option("--password-file", arguments_.password_file,
-                   "file whose first line unlocks the key (or set TELESTRAIN_KEY_PASSWORD; else a "
+                   "file of up to 4096 bytes whose first line unlocks the key (or set "
+                   "TELESTRAIN_KEY_PASSWORD; else a "
                    "terminal is asked)");
   }
 

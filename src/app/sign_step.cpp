@@ -1,12 +1,18 @@
 #include "app/sign_step.h"
 
+#include <fcntl.h>
+#include <sys/file.h>
 #include <termios.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
 #include <optional>
+#include <utility>
 
 #include "base/files.h"
 #include "report/audit/audit_trail.h"
@@ -17,6 +23,31 @@ namespace telestrain {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::size_t kMostPassword_bytes = 4096;
+
+// Held from reading the report until its trail tells of the signature, so that of two who sign at
+// once the second signs what the first made.
+class FolderLock {
+ public:
+  static Result<FolderLock> Take(const fs::path& folder) {
+    FolderLock lock(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+    if (lock.folder_ < 0 || ::flock(lock.folder_, LOCK_EX) != 0)
+      return OutputFailed(folder.string() + ": cannot be locked for signing: " +
+                          std::strerror(errno) + "; sign in a folder of this machine");
+    return lock;
+  }
+  FolderLock(FolderLock&& other) noexcept : folder_(std::exchange(other.folder_, -1)) {}
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+  ~FolderLock() {
+    if (folder_ >= 0) ::close(folder_);
+  }
+
+ private:
+  explicit FolderLock(int folder) : folder_(folder) {}
+  int folder_;
+};
 
 std::string FirstLine(const std::string& text) {
   std::string line = text.substr(0, text.find('\n'));
@@ -42,11 +73,25 @@ Result<std::string> AskTerminal(const std::string& source) {
   return password;
 }
 
+// Unbuffered, so that no copy of it stays behind.
+Result<std::string> PasswordIn(const std::string& file) {
+  std::ifstream stream;
+  stream.rdbuf()->pubsetbuf(nullptr, 0);
+  stream.open(file, std::ios::binary);
+  std::string text(kMostPassword_bytes + 1, '\0');
+  if (!stream || fs::is_directory(file)) return BadInput(file + ": the password cannot be read");
+  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(stream.gcount()));
+  const bool too_long = text.size() > kMostPassword_bytes;
+  const std::string line = FirstLine(text);
+  WipePassword(&text);
+  if (!too_long) return line;
+  return BadInput(file + ": is larger than " + std::to_string(kMostPassword_bytes) +
+                  " bytes; want a file whose first line is the password");
+}
+
 Result<std::string> PasswordOf(const SignArguments& arguments, const std::string& source) {
-  if (!arguments.password_file.empty()) {
-    TELESTRAIN_ASSIGN_OR_RETURN(const std::string text, ReadFile(arguments.password_file));
-    return FirstLine(text);
-  }
+  if (!arguments.password_file.empty()) return PasswordIn(arguments.password_file);
   if (const char* set = std::getenv("TELESTRAIN_KEY_PASSWORD")) return std::string(set);
   return AskTerminal(source);
 }
@@ -74,32 +119,40 @@ Result<SignOptions> OptionsOf(const SignArguments& arguments) {
   return options;
 }
 
-// The trail of the results folder that the report lies in, if it does.
+// The trail of the results folder that the signed file goes to, if it has one. It must be whole and
+// can be continued, so that nothing is signed that it would not tell of.
 Result<std::optional<AuditTrail>> TrailBeside(const fs::path& report) {
   const fs::path file = report.parent_path() / "audit.jsonl";
   std::error_code code;
   if (!fs::exists(file, code)) return std::optional<AuditTrail>();
+  if (::access(file.c_str(), W_OK) != 0)
+    return OutputFailed(file.string() + ": cannot be continued: " + std::strerror(errno) +
+                        "; nothing is signed that the audit trail would not tell of");
   TELESTRAIN_ASSIGN_OR_RETURN(AuditTrail trail, AuditTrail::Open(file));
   return std::optional<AuditTrail>(std::move(trail));
 }
 
-// The signed file as seen from the folder of the report: report.pdf itself, or another one.
-std::string FileOf(const SignArguments& arguments) {
-  if (arguments.out.empty()) return fs::path(arguments.report).filename().string();
-  return fs::absolute(arguments.out)
-      .lexically_normal()
-      .lexically_relative(fs::absolute(arguments.report).lexically_normal().parent_path())
-      .string();
-}
-
-Json EntryOf(const SignArguments& arguments, const std::string& before,
+// `target`: lies in the folder of the trail.
+Json EntryOf(const SignArguments& arguments, const fs::path& target, const std::string& before,
              const SignedReport& signed_report) {
   return {{"role", arguments.role},
           {"signer", signed_report.signer},
           {"certificate_sha256", signed_report.fingerprint},
-          {"file", FileOf(arguments)},
+          {"file", target.filename().string()},
           {"sha256_before", Sha256Hex(before)},
           {"sha256_after", Sha256Hex(signed_report.bytes)}};
+}
+
+Status Record(AuditTrail& trail, const Json& body, const SignOptions& options) {
+  TELESTRAIN_RETURN_IF_ERROR(trail.Append("sign", body, IsoTime(options.time_s)));
+  return trail.Sync();
+}
+
+// The file itself when the name is a link to it; the link stays.
+fs::path FileBehind(const fs::path& path) {
+  std::error_code code;
+  const fs::path file = fs::is_symlink(path, code) ? fs::canonical(path, code) : path;
+  return code ? path : file;
 }
 
 }  // namespace
@@ -107,16 +160,21 @@ Json EntryOf(const SignArguments& arguments, const std::string& before,
 Result<int> SignStep(const SignArguments& arguments, Console& console) {
   const std::string target = arguments.out.empty() ? arguments.report : arguments.out;
   TELESTRAIN_ASSIGN_OR_RETURN(const SignOptions options, OptionsOf(arguments));
-  TELESTRAIN_ASSIGN_OR_RETURN(const std::string before, ReadFile(arguments.report));
-  TELESTRAIN_ASSIGN_OR_RETURN(auto trail, TrailBeside(fs::absolute(target)));
+  if (const auto readable = ReadFile(arguments.report); !readable) return readable.error();
+  // A password may be asked for before others have to wait.
   TELESTRAIN_ASSIGN_OR_RETURN(const SigningKey key, KeyOf(arguments));
+  TELESTRAIN_ASSIGN_OR_RETURN(const FolderLock lock,
+                              FolderLock::Take(fs::absolute(target).parent_path()));
+  TELESTRAIN_ASSIGN_OR_RETURN(auto trail, TrailBeside(fs::absolute(target)));
+  TELESTRAIN_ASSIGN_OR_RETURN(const std::string before, ReadFile(arguments.report));
   TELESTRAIN_ASSIGN_OR_RETURN(const SignedReport signed_report,
                               SignReport(arguments.report, before, key, options));
-  TELESTRAIN_RETURN_IF_ERROR(WriteFileAtomically(target, signed_report.bytes));
+  TELESTRAIN_RETURN_IF_ERROR(WriteFileAtomically(FileBehind(target), signed_report.bytes));
   if (trail) {
-    TELESTRAIN_RETURN_IF_ERROR(
-        trail->Append("sign", EntryOf(arguments, before, signed_report), IsoTime(options.time_s)));
-    TELESTRAIN_RETURN_IF_ERROR(trail->Sync());
+    const Json body = EntryOf(arguments, target, before, signed_report);
+    if (const Status told = Record(*trail, body, options); !told)
+      return OutputFailed(
+          target + " is signed, but its audit trail does not tell of it: " + told.error().message);
   }
   console.Say("signed     " + target + " as " + options.role + ": " + signed_report.signer +
               ", certificate " + signed_report.fingerprint.substr(0, 16) + "…");

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <openssl/evp.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
@@ -9,6 +10,7 @@
 #include <cstring>
 #include <fstream>
 #include <memory>
+#include <optional>
 #include <system_error>
 #include <vector>
 
@@ -36,10 +38,13 @@ struct Descriptor {
   }
 };
 
-// `flag`: O_TRUNC or O_APPEND. Returns 0 or the errno of the first call that failed.
-int WriteAndSync(const std::filesystem::path& path, std::string_view bytes, int flag) {
-  Descriptor file{::open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | flag, 0644)};
+// `flags`: of open(), beside those for writing. `mode`: of the new file, else what the system makes
+// of 0644. Returns 0 or the errno of the first call that failed.
+int WriteAndSync(const std::filesystem::path& path, std::string_view bytes, int flags,
+                 std::optional<mode_t> mode = std::nullopt) {
+  Descriptor file{::open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | flags, mode ? 0600 : 0644)};
   if (file.value < 0) return errno;
+  if (mode && ::fchmod(file.value, *mode) != 0) return errno;
   while (!bytes.empty()) {
     const ssize_t written = ::write(file.value, bytes.data(), bytes.size());
     if (written < 0 && errno == EINTR) continue;
@@ -47,6 +52,13 @@ int WriteAndSync(const std::filesystem::path& path, std::string_view bytes, int 
     bytes.remove_prefix(static_cast<std::size_t>(written));
   }
   return ::fsync(file.value) == 0 ? 0 : errno;
+}
+
+// The permissions of the file that is to be replaced; nothing without one.
+std::optional<mode_t> ModeOf(const std::filesystem::path& path) {
+  struct stat facts {};
+  if (::lstat(path.c_str(), &facts) != 0 || !S_ISREG(facts.st_mode)) return std::nullopt;
+  return facts.st_mode & 0777;
 }
 
 Error CannotWrite(const std::filesystem::path& path, int error_number) {
@@ -76,7 +88,9 @@ Result<std::string> ReadFile(const std::filesystem::path& path) {
 Status WriteFileAtomically(const std::filesystem::path& path, std::string_view bytes) {
   std::filesystem::path temporary = path;
   temporary += ".part" + std::to_string(::getpid());
-  int error_number = WriteAndSync(temporary, bytes, O_TRUNC);
+  // A killed program of the same number may have left one; a link of that name is not followed.
+  ::unlink(temporary.c_str());
+  int error_number = WriteAndSync(temporary, bytes, O_EXCL | O_NOFOLLOW, ModeOf(path));
   if (error_number == 0 && std::rename(temporary.c_str(), path.c_str()) != 0) error_number = errno;
   if (error_number == 0) return {};
   ::unlink(temporary.c_str());

@@ -12,7 +12,8 @@ namespace telestrain {
 Result<std::string> ReadFile(const std::filesystem::path& path);
 
 // Writes `bytes` under a temporary name beside `path`, syncs and renames, so that `path` is
-// either the old file or the whole new one. Fails (kOutputFailed) and removes the temporary.
+// either the old file or the whole new one, with the permissions of the old one. A symbolic link is
+// replaced, not followed. Fails (kOutputFailed) and removes the temporary.
 Status WriteFileAtomically(const std::filesystem::path& path, std::string_view bytes);
 
 // Adds `bytes` to the end of a file, which is made when it is missing, and syncs. Other readers see

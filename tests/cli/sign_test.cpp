@@ -66,6 +66,66 @@ TEST_F(SignVerb, SignsReplacesTheFileAndRecordsItInTheTrail) {
   EXPECT_EQ(ReadAll(Report()), after);
 }
 
+TEST_F(SignVerb, KeepsPermissionsAndLinksAndTellsTheTrailBesideTheSignedFile) {
+  MustRun({"run"});
+  const auto sign = [&](const std::string& report, const std::string& out = "") {
+    std::vector<std::string> words = {
+        "sign",  report,           "--role",          "operator",
+        "--p12", File("both.p12"), "--password-file", File("password")};
+    if (!out.empty()) words.insert(words.end(), {"--out", out});
+    return RunTelestrain(words);
+  };
+  const fs::path elsewhere = scratch() / "elsewhere";
+  fs::create_directories(elsewhere);
+  const std::string trail = ReadAll(results() / "audit.jsonl"), before = ReadAll(Report());
+  EXPECT_EQ(sign(Report(), (elsewhere / "report.pdf").string()).exit_code, 0);
+  EXPECT_EQ(ReadAll(Report()), before);
+  EXPECT_EQ(ReadAll(results() / "audit.jsonl"), trail);
+  EXPECT_EQ(sign(Report(), (results() / "signed.pdf").string()).exit_code, 0);
+  EXPECT_NE(ReadAll(results() / "audit.jsonl").find(R"("file":"signed.pdf")"), std::string::npos);
+
+  fs::permissions(Report(), fs::perms::owner_read | fs::perms::owner_write);
+  const fs::path link = elsewhere / "link.pdf";
+  fs::create_symlink(fs::absolute(Report()), link);
+  EXPECT_EQ(sign(link.string()).exit_code, 0);
+  EXPECT_TRUE(fs::is_symlink(link));
+  EXPECT_TRUE(ReadAll(Report()).starts_with(before));
+  EXPECT_GT(ReadAll(Report()).size(), before.size());
+  EXPECT_EQ(fs::status(Report()).permissions(), fs::perms::owner_read | fs::perms::owner_write);
+}
+
+TEST_F(SignVerb, SignsNothingBesideADamagedTrail) {
+  MustRun({"run"});
+  const std::string before = ReadAll(Report());
+  std::ofstream(results() / "audit.jsonl", std::ios::app) << "no line of a trail\n";
+  const ProgramRun run = RunTelestrain(Words(
+      {"--role", "operator", "--p12", File("both.p12"), "--password-file", File("password")}));
+  EXPECT_EQ(run.exit_code, 3) << run.err;
+  EXPECT_EQ(ReadAll(Report()), before);
+}
+
+// Instrument and operator at once: whoever comes second signs what the first made, or is refused.
+TEST_F(SignVerb, TwoAtOnceLoseNoSignature) {
+  MustRun({"run"});
+  const auto words = [&](const char* role) {
+    return Words({"--role", role, "--p12", File("both.p12"), "--password-file", File("password")});
+  };
+  RunningTelestrain instrument(words("instrument")), person(words("operator"));
+  const int done = (instrument.Wait().exit_code == 0) + (person.Wait().exit_code == 0);
+  EXPECT_GE(done, 1);
+  const auto count = [](const std::string& text, const std::string& wanted) {
+    int found = 0;
+    for (std::size_t at = 0; (at = text.find(wanted, at)) != std::string::npos; ++at) ++found;
+    return found;
+  };
+  EXPECT_EQ(count(ReadAll(Report()), "/ByteRange ["), done);
+  EXPECT_EQ(count(ReadAll(results() / "audit.jsonl"), R"("type":"sign")"), done);
+  // A file of certificates that has none is bad input, no verdict.
+  std::ofstream(scratch() / "empty.pem");
+  EXPECT_EQ(RunTelestrain({"audit", "verify", Report(), "--trust", File("empty.pem")}).exit_code,
+            3);
+}
+
 TEST_F(SignVerb, SaysWhatIsMissing) {
   fs::create_directories(results());
   std::ofstream(Report()) << "no PDF";
@@ -79,8 +139,10 @@ TEST_F(SignVerb, SaysWhatIsMissing) {
   expect({"--role", "boss", "--p12", p12}, 2, "--role");
   expect({"--role", "operator", "--p12", p12, "--time", "yesterday"}, 2, "want ISO 8601");
   expect({"--role", "operator", "--p12", p12}, 3, "there is no terminal to ask");
-  expect({"--role", "operator", "--p12", p12, "--password-file", password}, 3,
-         "the PDF is damaged");
+  expect({"--role", "operator", "--p12", p12, "--password-file", password}, 3, "is not a PDF");
+  std::ofstream(scratch() / "large") << std::string(5000, 'x');
+  expect({"--role", "operator", "--p12", p12, "--password-file", File("large")}, 3,
+         "is larger than 4096 bytes");
   EXPECT_EQ(ReadAll(Report()), "no PDF");
 }
 

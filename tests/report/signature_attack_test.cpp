@@ -6,6 +6,7 @@
 
 #include "report/signature/opened_pdf.h"
 #include "report/signature/pdf_update.h"
+#include "report/signature/signature_boxes.h"
 #include "report/signature/signed_layout.h"
 #include "signature_reports.h"
 
@@ -99,6 +100,74 @@ TEST(SignatureAttack, TheFieldIsMovedOverTheVerdictAndSigned) {
         field.field.replaceKey("/Rect", Object::newFromRectangle({0, 0, 595, 842}));
   };
   ExpectFailure(Forge(SignedBy(3), "approver", Trusted(), move), "the field of the approver");
+}
+
+// The picture of the approver's signature, scaled up or larger than its box.
+TEST(SignatureAttack, APictureLargerThanItsBoxIsDrawnAndSigned) {
+  const auto draw = [](const std::string& facts) {
+    return [facts](QPDF& pdf, PdfUpdate&) {
+      for (SignatureField& field : SignatureFieldsOf(pdf)) {
+        if (field.role != "approver") continue;
+        Object picture = pdf.newStream("1 1 1 rg 0 0 595 842 re f");
+        picture.replaceDict(Object::parse("<< /Type /XObject /Subtype /Form " + facts + " >>"));
+        Object appearance = Object::newDictionary();
+        appearance.replaceKey("/N", picture);
+        field.field.replaceKey("/AP", appearance);
+      }
+    };
+  };
+  EXPECT_EQ(Check(Forge(SignedBy(3), "approver", Trusted(), draw("/BBox [0 0 190 46]"))).failure,
+            "");
+  for (const char* facts :
+       {"/BBox [0 0 595 842]", "/BBox [0 0 0 0]", "/BBox [0 0 190 46] /Matrix [9 0 0 9 0 0]"})
+    ExpectFailure(Forge(SignedBy(3), "approver", Trusted(), draw(facts)),
+                  "the field of the approver");
+}
+
+TEST(SignatureAttack, ABoxThatCouldCoverThePageIsNotSigned) {
+  const auto expect = [](const std::string& report, const std::string& wanted) {
+    const auto made = SignReport("report.pdf", report, Trusted(), OptionsOf("operator"));
+    ASSERT_FALSE(made);
+    EXPECT_NE(made.error().message.find(wanted), std::string::npos) << made.error().message;
+    ExpectFailure(Forge(report, "operator", Trusted(), Nothing), wanted);
+  };
+  expect(ReportWithBox(0, 0, 595, 842), "the box of the operator's signature has 595 × 842 pt");
+  expect(ReportWithBox(500, 20, 190, 46), "the box of the operator's signature is not inside");
+  EXPECT_EQ(Check(Sign(ReportWithBox(70, 20, 190, 46), "operator")).failure, "");
+  const auto move = [](QPDF& pdf, PdfUpdate&) {
+    for (SignatureField& field : SignatureFieldsOf(pdf))
+      field.field.replaceKey("/Rect", Object::newFromRectangle({70, 70, 260, 116}));
+  };
+  const OpenedPdf opened = OpenPdf(UnsignedReport());
+  QPDF& pdf = *opened.pdf;
+  PdfUpdate unused(pdf, UnsignedReport());
+  move(pdf, unused);
+  EXPECT_EQ(BoxesFailure(pdf),
+            "the box of the operator's signature overlaps that of the instrument");
+}
+
+TEST(SignatureAttack, AnObjectHasASecondGeneration) {
+  std::string report = UnsignedReport();
+  const auto exchange = [&](const std::string& was, const std::string& is) {
+    for (std::size_t at = 0; (at = report.find(was, at)) != std::string::npos; at += is.size())
+      report.replace(at, was.size(), is);
+  };
+  exchange("\n5 0 obj", "\n5 1 obj");
+  exchange(" 5 0 R", " 5 1 R");
+  const std::size_t table = report.find('\n', report.rfind("\nxref\n") + 6) + 1;
+  report.replace(table + 5 * 20 + 11, 5, "00001");
+  ExpectFailure(report, "an object of another generation than 0, number 5");
+  const auto made = SignReport("report.pdf", report, Trusted(), OptionsOf("operator"));
+  ASSERT_FALSE(made);
+  EXPECT_NE(made.error().message.find("another generation"), std::string::npos);
+}
+
+TEST(SignatureAttack, WhatNoSignatureNeedsIsAddedToTheCatalog) {
+  const auto add = [](QPDF& pdf, PdfUpdate& update) {
+    pdf.getRoot().replaceKey("/DSS", Object::newDictionary());
+    update.Touch(pdf.getRoot());
+  };
+  ExpectFailure(Forge(SignedBy(3), "approver", Trusted(), add), "the catalog (object");
 }
 
 TEST(SignatureAttack, ACoveringAnnotationIsAddedAndSigned) {

@@ -84,7 +84,7 @@ Identity Issue(const IdentityRequest& request) {
   X509* raw = certificate.get();
   X509* issuer = request.issuer ? request.issuer->certificate.get() : raw;
   Require(made.key && raw, "no key");
-  X509_set_version(raw, X509_VERSION_3);
+  X509_set_version(raw, request.old_version ? X509_VERSION_1 : X509_VERSION_3);
   ASN1_INTEGER_set(X509_get_serialNumber(raw), ++serial);
   ASN1_TIME_set(X509_getm_notBefore(raw), request.from_s);
   ASN1_TIME_set(X509_getm_notAfter(raw), request.until_s);
@@ -93,10 +93,12 @@ Identity Issue(const IdentityRequest& request) {
   const auto* text = reinterpret_cast<const unsigned char*>(request.name.c_str());
   X509_NAME_add_entry_by_txt(name, "CN", MBSTRING_UTF8, text, -1, -1, 0);
   X509_set_issuer_name(raw, X509_get_subject_name(issuer));
-  AddExtension(raw, issuer, NID_basic_constraints,
-               request.authority ? "critical,CA:TRUE" : "critical,CA:FALSE");
-  AddExtension(raw, issuer, NID_key_usage, request.usage);
-  AddExtension(raw, issuer, NID_ext_key_usage, request.extended_usage);
+  if (!request.old_version) {
+    AddExtension(raw, issuer, NID_basic_constraints,
+                 request.authority ? "critical,CA:TRUE" : "critical,CA:FALSE");
+    AddExtension(raw, issuer, NID_key_usage, request.usage);
+    AddExtension(raw, issuer, NID_ext_key_usage, request.extended_usage);
+  }
   EVP_PKEY* signer = request.issuer ? request.issuer->key.get() : made.key.get();
   const EVP_MD* digest = EVP_PKEY_is_a(signer, "ED25519") ? nullptr : EVP_sha256();
   Require(X509_sign(raw, signer, digest) > 0, "not signed");

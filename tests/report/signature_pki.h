@@ -30,7 +30,8 @@ struct IdentityRequest {
   std::string usage = "critical,digitalSignature,nonRepudiation";
   std::string extended_usage = "";  // empty: none
   bool authority = false;
-  long long from_s = kSigned_s - kYear_s, until_s = kSigned_s + 5 * kYear_s;
+  bool old_version = false;  // X.509 version 1, without extensions
+  long long from_s = kSigned_s - kYear_s, until_s = kSigned_s + 70 * kYear_s;
 };
 Identity Issue(const IdentityRequest& request);
 

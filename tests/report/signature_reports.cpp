@@ -16,7 +16,22 @@
 namespace telestrain {
 namespace {
 
-std::string MakeReport(bool with_fields) {
+struct NamedBox {
+  std::string role;
+  PageBox box;
+};
+
+std::vector<NamedBox> FourBoxes() {
+  std::vector<NamedBox> boxes;
+  double bottom_pt = 560;
+  for (const std::string_view role : kSigningRoles) {
+    boxes.push_back({std::string(role), {70, bottom_pt, 190, 46}});
+    bottom_pt -= 60;
+  }
+  return boxes;
+}
+
+std::string MakeReport(const std::vector<NamedBox>& boxes) {
   auto created = PdfDocument::Create();
   if (!created) throw std::runtime_error(created.error().message);
   PdfDocument& pdf = **created;
@@ -28,13 +43,7 @@ std::string MakeReport(bool with_fields) {
               .media_type = "application/json",
               .description = "results",
               .bytes = R"({"verdict": "pass", "measured": [1, 2, 3]})"});
-  double bottom_pt = 560;
-  if (with_fields)
-    for (const std::string_view role : kSigningRoles) {
-      pdf.AddSignatureField(std::string(role), "Signature: " + std::string(role),
-                            {70, bottom_pt, 190, 46});
-      bottom_pt -= 60;
-    }
+  for (const auto& [role, box] : boxes) pdf.AddSignatureField(role, "Signature: " + role, box);
   PdfInfo info;
   info.title = "Report";
   info.creator = "telestrain 0.1.0";
@@ -47,12 +56,15 @@ std::string MakeReport(bool with_fields) {
 }  // namespace
 
 const std::string& UnsignedReport() {
-  static const std::string kReport = MakeReport(true);
+  static const std::string kReport = MakeReport(FourBoxes());
   return kReport;
 }
 const std::string& ReportWithoutFields() {
-  static const std::string kReport = MakeReport(false);
+  static const std::string kReport = MakeReport({});
   return kReport;
+}
+std::string ReportWithBox(double left_pt, double bottom_pt, double width_pt, double height_pt) {
+  return MakeReport({{"operator", {left_pt, bottom_pt, width_pt, height_pt}}});
 }
 
 SignOptions OptionsOf(const std::string& role) {

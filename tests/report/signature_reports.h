@@ -19,6 +19,9 @@ const std::string& UnsignedReport();
 // The same without fields.
 const std::string& ReportWithoutFields();
 
+// One field, of the operator, in this box of page two (pt).
+std::string ReportWithBox(double left_pt, double bottom_pt, double width_pt, double height_pt);
+
 SignOptions OptionsOf(const std::string& role);
 
 // Signs with the test PKI's identity of the role, or with another; fails the test if refused.

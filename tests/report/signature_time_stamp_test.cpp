@@ -80,11 +80,26 @@ TEST(TimeStamp, OfAnUnknownAuthorityIsRejected) {
       << failure;
 }
 
+TEST(TimeStamp, IsNotMoreThanADayFromTheSignersClock) {
+  TimeStampResponder responder;
+  SignOptions options = OptionsOf("operator");
+  options.time_stamp_url = responder.url();
+  options.time_s = kSigned_s + 2 * 86400;
+  const auto made =
+      SignReport("report.pdf", UnsignedReport(), Pki().operator_.ForSigning(), options);
+  ASSERT_FALSE(made);
+  EXPECT_NE(made.error().message.find("is more than a day from 2026-01-31T12:01:00Z"),
+            std::string::npos)
+      << made.error().message;
+}
+
 // The signer's clock says that the certificate is valid; a minute later it is not.
 TEST(TimeStamp, CountsInsteadOfTheSignersClock) {
   TimeStampResponder responder;
   const Identity brief = Issue({.name = "Brief", .issuer = &Pki().root, .until_s = kSigned_s + 30});
-  EXPECT_EQ(Check(Sign(UnsignedReport(), "operator", brief.ForSigning())).failure, "");
+  EXPECT_EQ(Check(Sign(UnsignedReport(), "operator", brief.ForSigning())).failure,
+            "operator: its certificate has expired and no time stamp proves that it was signed "
+            "before");
   const auto made = SignWith(responder.url(), brief.ForSigning());
   ASSERT_TRUE(made) << made.error().message;
   const std::string failure = Check(made->bytes).failure;

@@ -1,6 +1,7 @@
 #include "base/files.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <iterator>
 
@@ -33,6 +34,22 @@ TEST(FilesTest, AFailedWriteLeavesTheOldFileAndNoTemporary) {
   EXPECT_NE(status.error().message.find("cannot be written"), std::string::npos);
   EXPECT_TRUE(std::filesystem::is_directory(folder.path() / "target" / "inside"));
   EXPECT_EQ(EntryCount(folder.path()), 1);
+}
+
+TEST(FilesTest, AReplacedFileKeepsItsPermissionsAndNoLinkIsFollowed) {
+  namespace fs = std::filesystem;
+  const ScratchFolder folder("files_mode");
+  const fs::path file = folder.path() / "f", link = folder.path() / "link";
+  ASSERT_TRUE(WriteFileAtomically(file, "old").ok());
+  fs::permissions(file, fs::perms::owner_read | fs::perms::owner_write);
+  ASSERT_TRUE(WriteFileAtomically(file, "new").ok());
+  EXPECT_EQ(fs::status(file).permissions(), fs::perms::owner_read | fs::perms::owner_write);
+  fs::create_symlink(file, link);
+  fs::create_symlink(file, link.string() + ".part" + std::to_string(::getpid()));
+  ASSERT_TRUE(WriteFileAtomically(link, "other").ok());
+  EXPECT_EQ(*ReadFile(file), "new");
+  EXPECT_FALSE(fs::is_symlink(link));
+  EXPECT_EQ(EntryCount(folder.path()), 2);
 }
 
 TEST(FilesTest, WritingIntoNoFolderFails) {
