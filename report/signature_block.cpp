@@ -32,7 +32,9 @@ class SignatureBoxes {
     const double inner_pt = std::min(box.width_pt - 2 * kInset_pt, kWidestBox_pt);
     const double line_pt = box.bottom_pt + 24;
     const PagePoint line{box.left_pt + kInset_pt, line_pt};
-    flow_.pdf().DrawLine(line, {line.x_pt + inner_pt, line_pt}, {look_.muted, 0.5});
+    // Half a point short of the field at both ends, so that the picture covers it.
+    flow_.pdf().DrawLine({line.x_pt + 0.5, line_pt}, {line.x_pt + inner_pt - 0.5, line_pt},
+                         {look_.muted, 0.5});
     const double name_pt =
         DrawWords(NameStyle(), {line.x_pt, box.top_pt() - 6}, inner_pt, context_.layout.Say(role));
     const double field_pt = box.bottom_pt + 3;
