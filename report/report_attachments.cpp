@@ -2,6 +2,8 @@
 
 #include "base/files.h"
 #include "report/audit/audit_trail.h"
+#include "report/report_template.h"
+#include "report/result_cells.h"
 
 namespace telestrain {
 namespace {
@@ -66,12 +68,33 @@ Json AttachmentsTable(const std::vector<PdfAttachment>& attachments) {
     if (attachment.name != kTrail) continue;
     const TrailHead head = HeadOf(attachment.bytes);
     if (head.hash.empty()) continue;
-    table["rows"].push_back({"audit head",
-                             "Hash of the last entry; number of entries",
-                             {{"value", head.entries}, {"printed", std::to_string(head.entries)}},
-                             head.hash});
+    // The row below the trail's: where a reader of the report looks for its head.
+    table["rows"].push_back(
+        {"audit head",
+         Phrase("Hash of the last of {{count}} entries", {{"count", std::to_string(head.entries)}}),
+         "", head.hash});
   }
   return table;
+}
+
+Json WithAttachmentsTable(Json blocks, const Json& results) {
+  constexpr const char* kId = "attachments";
+  Json table = {{"type", "table"}, {"table", kId}, {"mono", {"SHA-256"}}};
+  bool is_drawn = false;
+  for (Json& block : blocks) {
+    if (TextAt(block, "/type") != "table" || TextAt(block, "/table") != kId) continue;
+    block["mono"] = table["mono"];
+    block.erase("width_mm");  // a hash that is broken cannot be compared
+    is_drawn = is_drawn || IsWanted(results, block);
+  }
+  if (is_drawn) return blocks;
+  table["show_title"] = false;
+  std::size_t at = 0;
+  while (at < blocks.size() && TextAt(blocks[at], "/type") != "end-mark") ++at;
+  const auto place = [&] { return blocks.begin() + static_cast<std::ptrdiff_t>(at); };
+  blocks.insert(place(), table);
+  blocks.insert(place(), Json{{"type", "heading"}, {"text", "Attached files"}});
+  return blocks;
 }
 
 }  // namespace telestrain

@@ -97,9 +97,9 @@ Status WriteReport(const std::filesystem::path& results, const ReportOptions& op
   PageFlow flow(*pdf, layout.look());
   flow.StartPage();
   const ReportContext context{results, layout, said, values, flow};
-  for (std::size_t i = 0; i < layout.blocks().size(); ++i)
-    TELESTRAIN_RETURN_IF_ERROR(
-        DrawBlock(context, "/blocks/" + std::to_string(i), layout.blocks()[i]));
+  const Json blocks = WithAttachmentsTable(layout.blocks(), said);
+  for (std::size_t i = 0; i < blocks.size(); ++i)
+    TELESTRAIN_RETURN_IF_ERROR(DrawBlock(context, "/blocks/" + std::to_string(i), blocks[i]));
   DrawPageFrames(context);
   for (PdfAttachment& attachment : attachments) pdf->Attach(std::move(attachment));
   TELESTRAIN_ASSIGN_OR_RETURN(

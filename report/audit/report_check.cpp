@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 
 #include "base/files.h"
 #include "base/numbers.h"
@@ -17,27 +16,18 @@ constexpr const char* kTrail = "audit.jsonl";
 // Files of the results folder that a report carries when they exist.
 constexpr std::array kCarried = {"results.json", "calibration.json", "dcc.xml", "session.toml"};
 
-// What the pages say, without white space, so that a hash may be broken over lines.
-std::string PrintedText(const PdfContents& contents) {
-  std::string text;
-  for (const std::string& page : contents.page_texts)
-    std::copy_if(page.begin(), page.end(), std::back_inserter(text),
-                 [](unsigned char c) { return std::isspace(c) == 0; });
-  return text;
+bool Prints(const PdfContents& contents, const std::string& file, const std::string& hash) {
+  const auto printed = contents.printed_hashes.find(file);
+  return printed != contents.printed_hashes.end() && printed->second == hash;
 }
 
-bool Prints(const std::string& printed, const std::string& hash) {
-  return printed.find(hash) != std::string::npos;
-}
-
-Result<std::vector<AuditEntry>> TrailInside(const std::string& name, const PdfContents& contents,
-                                            const std::string& printed) {
+Result<std::vector<AuditEntry>> TrailInside(const std::string& name, const PdfContents& contents) {
   const auto attached = contents.attachments.find(kTrail);
   if (attached == contents.attachments.end()) return BadInput(name + " carries no audit trail");
   TELESTRAIN_ASSIGN_OR_RETURN(auto entries,
                               ReadAuditTrail("the audit trail in " + name, attached->second));
   if (entries.empty()) return BadInput("the audit trail in " + name + " is empty");
-  if (!Prints(printed, entries.back().hash))
+  if (contents.printed_head != entries.back().hash)
     return BadInput("the audit trail in " + name +
                     " does not end with the line whose hash is printed on its pages: it was cut "
                     "short or continued");
@@ -46,9 +36,9 @@ Result<std::vector<AuditEntry>> TrailInside(const std::string& name, const PdfCo
 }
 
 Status CheckAttachments(const std::string& name, const PdfContents& contents,
-                        const std::vector<AuditEntry>& entries, const std::string& printed) {
+                        const std::vector<AuditEntry>& entries) {
   for (const auto& [file, bytes] : contents.attachments)
-    if (!Prints(printed, Sha256Hex(bytes)))
+    if (!Prints(contents, file, Sha256Hex(bytes)))
       return BadInput("attachment " + file + " of " + name +
                       " is not the one whose SHA-256 is printed on its pages");
   const auto made = LatestOutputs(entries);
@@ -121,9 +111,8 @@ Status CheckAgainstFolder(const std::string& name, const PdfContents& contents,
 Result<std::string> CheckReport(const std::string& name, const std::string& bytes,
                                 const TrustOptions& trust, const FolderTrail* folder) {
   TELESTRAIN_ASSIGN_OR_RETURN(const PdfContents contents, ReadPdfContents(name, bytes));
-  const std::string printed = PrintedText(contents);
-  TELESTRAIN_ASSIGN_OR_RETURN(const auto entries, TrailInside(name, contents, printed));
-  TELESTRAIN_RETURN_IF_ERROR(CheckAttachments(name, contents, entries, printed));
+  TELESTRAIN_ASSIGN_OR_RETURN(const auto entries, TrailInside(name, contents));
+  TELESTRAIN_RETURN_IF_ERROR(CheckAttachments(name, contents, entries));
   if (folder) TELESTRAIN_RETURN_IF_ERROR(CheckAgainstFolder(name, contents, *folder));
   TELESTRAIN_ASSIGN_OR_RETURN(const std::string signatures, Signatures(name, bytes, trust, folder));
   return CountText(contents.attachments.size(), "attachment") + " as printed, " + signatures;

@@ -55,22 +55,21 @@ class AuditCheckTest : public ::testing::Test {
   }
   std::string Trail() const { return *ReadFile(Results() / "audit.jsonl"); }
 
-  // Prints the hashes of what it carries, each broken over two lines, and the head.
+  // Prints the hashes of what it carries, and the head.
   std::string MakeReport() const {
     auto pdf = PdfDocument::Create();
     (*pdf)->AddPage();
     double y_pt = 700;
     const auto print = [&](const std::string& name, const std::string& hash) {
       (*pdf)->DrawText({}, {50, y_pt}, name);
-      (*pdf)->DrawText({}, {150, y_pt}, hash.substr(0, 40));
-      (*pdf)->DrawText({}, {150, y_pt - 10}, hash.substr(40));
+      (*pdf)->DrawText({Face::kMono, 8, {}}, {150, y_pt}, hash);
       y_pt -= 30;
     };
     const std::string trail = TrailOfResults(Trail());
-    print("audit trail ends with", ReadAuditTrail("", trail)->back().hash);
     for (const char* name : {"session.toml", "results.json"})
       print(name, Sha256Hex(*ReadFile(Results() / name)));
     print("audit.jsonl", Sha256Hex(trail));
+    print("audit head", ReadAuditTrail("", trail)->back().hash);
     return EditedPdf(*(*pdf)->Save({}, "seed"), [&](QPDF& document) {
       for (const char* name : {"session.toml", "results.json"})
         AttachToPdf(document, name, *ReadFile(Results() / name));
