@@ -22,6 +22,9 @@ Json Phrase(const std::string& pattern, const std::map<std::string, Json>& value
 // ("v1", "v2", …; numbers, names of images and views), so that the pattern is the same for all
 // sentences of its kind. A sentence without such a word stays a plain text.
 Json PhraseOfText(const std::string& text);
+// The name of a lens model, "aspect k1 p1 telecentricity, bow of the boards", with its parts said
+// each by itself.
+Json ModelPhrase(const std::string& model);
 // Texts and Phrases one after the other as one Phrase; empty ones are left out. A plain "" when
 // none is left, the text itself when it is the only one.
 Json JoinPhrases(const std::vector<Json>& parts, const std::string& separator = " ");

@@ -5,6 +5,7 @@
 #include "base/json_file.h"
 #include "base/numbers.h"
 #include "report/acceptance_report.h"
+#include "report/layout_notes.h"
 #include "report/report_attachments.h"
 #include "report/report_blocks.h"
 
@@ -87,6 +88,8 @@ Status WriteReport(const std::filesystem::path& results, const ReportOptions& op
   TELESTRAIN_ASSIGN_OR_RETURN(const Json read,
                               ReadJson(path, "telestrain.results/1", "telestrain report"));
   TELESTRAIN_ASSIGN_OR_RETURN(const std::string bytes, ReadFile(path));
+  if (options.on_note)
+    for (const std::string& note : LayoutNotes(layout, read)) options.on_note(note);
   Json values = layout.FillValues(read);
   values["file"] = {{"results_sha256", Sha256Hex(bytes)}};
   TELESTRAIN_ASSIGN_OR_RETURN(std::vector<PdfAttachment> attachments, ReportAttachments(results));

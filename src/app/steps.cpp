@@ -229,8 +229,12 @@ Result<int> ReportStep(const fs::path& results, const ReportChoices& choices, Co
     return BadInput((results / "calibration.json").string() +
                     ": does not exist; run 'telestrain calibrate' first");
   std::set<std::string> untranslated;
-  const ReportOptions options{choices.templates, choices.layout, choices.language, choices.level,
-                              [&](const std::string& text) { untranslated.insert(text); }};
+  const ReportOptions options{choices.templates,
+                              choices.layout,
+                              choices.language,
+                              choices.level,
+                              [&](const std::string& text) { untranslated.insert(text); },
+                              [&](const std::string& note) { console.Note("  " + note); }};
   // A wrong layout must be known before an older report goes.
   TELESTRAIN_ASSIGN_OR_RETURN(const ReportScope scope, ScopeOf(options, choices.against));
   TELESTRAIN_RETURN_IF_ERROR(RemoveOutputsFrom(results, Step::kReport));

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "report/layout_notes.h"
+
 namespace telestrain {
 namespace {
 
@@ -41,6 +43,19 @@ TEST(ReportTemplate, ErrorsNameThePointerAndTheRemedy) {
       {Layout(R"({"type": "table", "table": "sumary"})"), {"/blocks/0/table", "'summary'"}},
       {Layout(R"({"type": "table", "table": "summary", "when": "rular"})"),
        {"/blocks/0/when", "'ruler'"}},
+      {Layout(R"({"type": "text", "text": "{{docment.customer}}"})"),
+       {"/blocks/0/text", "{{docment.customer}}", "'document'"}},
+      {Layout(R"({"type": "text", "text": "{{page}}"})"), {"/blocks/0/text", "header"}},
+      {Layout(R"({"type": "text", "text": "{{report.numbr}}"})"), {"/blocks/0/text", "'number'"}},
+      {R"({"schema": "telestrain.template/1", "title": "t", "blocks": [{"type": "page-break"}],
+           "footer": {"left": "{{pag}}"}})",
+       {"/footer/left", "{{pag}}", "'page'"}},
+      {R"({"schema": "telestrain.template/1", "title": "t", "blocks": [{"type": "page-break"}],
+           "labels": {"Page {{page}}": "Sheet {{pag}}"}})",
+       {"/labels/Page {{page}}", "{{pag}}"}},
+      {R"({"schema": "telestrain.template/1", "title": "t",
+           "blocks": [{"type": "page-break"}, {"type": "text", "text": "a", "text": "b"}]})",
+       {"layout.json: /blocks/1/text", "twice"}},
       {Layout(R"({"type": "chart", "charts": ["ruler-eror"], "height_mm": 50})"),
        {"/blocks/0/charts/0", "'ruler-errors'"}},
       {Layout(R"({"type": "chart", "charts": "x", "height_mm": 50})"), {"/blocks/0/charts"}},
@@ -65,6 +80,32 @@ TEST(ReportTemplate, FillsTextsAndSaysLabelsInItsOwnWording) {
   EXPECT_EQ(layout->Say("Limit"), "Tolerance");
   EXPECT_EQ(layout->Say("Unit"), "Unit");
   EXPECT_EQ(layout->Fill("Page {{page}}", {{"page", 3}}), "Sheet 3");
+}
+
+TEST(ReportTemplate, TakesEntriesOfADocumentInItsOwnSection) {
+  const auto layout = ReportTemplate::Parse(
+      "t", Layout(R"({"type": "text", "text": "{{#document}}for {{customer}}{{/document}}"})"));
+  ASSERT_TRUE(layout) << layout.error().message;
+  EXPECT_EQ(layout->Fill("{{#document}}for {{customer}}{{/document}}",
+                         {{"document", {{"customer", "C"}}}}),
+            "for C");
+}
+
+TEST(ReportTemplate, NotesWhatALayoutAsksForInVain) {
+  const auto layout =
+      ReportTemplate::Parse("t", R"({"schema": "telestrain.template/1", "title": "t",
+               "labels": {"Limmit": "Tolerance", "Limit": "Tolerance"}, "blocks": [
+        {"type": "text", "text": "for {{document.custumer}}"},
+        {"type": "text", "text": "{{#document.item}}of {{document.item}}{{/document.item}}"}]})");
+  ASSERT_TRUE(layout) << layout.error().message;
+  const auto notes = LayoutNotes(*layout, {{"document", {{"customer", "C"}}}});
+  ASSERT_EQ(notes.size(), 2u);
+  EXPECT_NE(notes[0].find("'Limmit'"), std::string::npos) << notes[0];
+  EXPECT_NE(notes[0].find("did you mean 'Limit'"), std::string::npos) << notes[0];
+  EXPECT_NE(notes[1].find("document.custumer"), std::string::npos) << notes[1];
+  EXPECT_NE(notes[1].find("nearest is 'customer'"), std::string::npos) << notes[1];
+  for (const char* name : {"acceptance", "calibration", "reverification", "strain"})
+    EXPECT_TRUE(LayoutNotes(*ReportTemplate::Load({{}, name, "en"}), Json::object()).empty());
 }
 
 // Names that the session gave are never taken for wordings.
