@@ -15,6 +15,9 @@ namespace fs = std::filesystem;
 constexpr const char* kRemedy =
     "; name the results folder of an earlier 'telestrain report', or its report.pdf";
 
+// A results.json with thousands of states has a few; parsed, it takes many times as much memory.
+constexpr std::size_t kMostJsonBytes = std::size_t{32} << 20;
+
 Result<Json> ParseAttachment(const std::string& pdf, const std::string& name,
                              const std::string& text, const std::string& schema) {
   Json json = Json::parse(text, nullptr, false);
@@ -45,6 +48,11 @@ Result<EarlierResults> ReadReport(const fs::path& pdf) {
   const auto results = contents.attachments.find("results.json");
   if (results == contents.attachments.end())
     return BadInput(pdf.string() + ": has no attachment results.json" + kRemedy);
+  for (const auto& [name, content] : contents.attachments)
+    if (content.size() > kMostJsonBytes)
+      return BadInput(pdf.string() + ": its attachment " + name + " has " +
+                      std::to_string(content.size()) + " bytes, at most " +
+                      std::to_string(kMostJsonBytes) + " are read" + kRemedy);
   earlier.file = "report.pdf";
   earlier.sha256 = Sha256Hex(bytes);
   TELESTRAIN_ASSIGN_OR_RETURN(
