@@ -5,6 +5,7 @@
 
 #include "base/check.h"
 #include "base/files.h"
+#include "base/json_file.h"
 #include "report/built_in_files.h"
 
 namespace telestrain {
@@ -77,6 +78,9 @@ std::vector<std::string> TemplateFolder::Names(const std::string& folder) const 
 }
 
 Result<Json> ParseTemplate(const TemplateFile& file) {
+  if (IsJsonDeeper(file.text))
+    return BadInput(file.where + ": is nested deeper than " + std::to_string(kDeepestJson) +
+                    " brackets");
   try {
     return Json::parse(file.text);
   } catch (const nlohmann::json::exception& e) {
