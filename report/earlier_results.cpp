@@ -20,7 +20,7 @@ constexpr std::size_t kMostJsonBytes = std::size_t{32} << 20;
 
 Result<Json> ParseAttachment(const std::string& pdf, const std::string& name,
                              const std::string& text, const std::string& schema) {
-  Json json = Json::parse(text, nullptr, false);
+  Json json = IsJsonDeeper(text) ? Json() : Json::parse(text, nullptr, false);
   if (json.is_discarded() || TextAt(json, "/schema") != schema)
     return BadInput(pdf + ": its attachment " + name + " is no " + schema + kRemedy);
   return json;

@@ -1,6 +1,7 @@
 #include "report/report_attachments.h"
 
 #include "base/files.h"
+#include "base/json_file.h"
 #include "report/audit/audit_trail.h"
 #include "report/report_template.h"
 #include "report/result_cells.h"
@@ -29,7 +30,8 @@ TrailHead HeadOf(const std::string& trail) {
   TrailHead head;
   for (std::size_t at = 0; at < trail.size();) {
     const std::size_t end = std::min(trail.find('\n', at), trail.size());
-    const Json line = Json::parse(trail.substr(at, end - at), nullptr, false);
+    const std::string text = trail.substr(at, end - at);
+    const Json line = IsJsonDeeper(text) ? Json() : Json::parse(text, nullptr, false);
     const std::string hash = TextAt(line, "/hash");
     if (!hash.empty()) head = {hash, head.entries + 1};
     at = end + 1;

@@ -5,6 +5,7 @@
 
 #include "base/check.h"
 #include "base/files.h"
+#include "base/json_file.h"
 #include "report/built_in_files.h"
 #include "report/json_schema.h"
 
@@ -114,6 +115,9 @@ std::vector<std::string> TemplateFolder::Names(const std::string& folder) const 
 }
 
 Result<Json> ParseTemplate(const TemplateFile& file) {
+  if (IsJsonDeeper(file.text))
+    return BadInput(file.where + ": is nested deeper than " + std::to_string(kDeepestJson) +
+                    " brackets");
   try {
     RepeatedKey repeated;
     Json json = Json::parse(file.text, [&](int, Json::parse_event_t event, const Json& parsed) {

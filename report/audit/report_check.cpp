@@ -7,6 +7,7 @@
 #include "base/numbers.h"
 #include "report/audit/trail_files.h"
 #include "report/reading/pdf_contents.h"
+#include "report/signature/signed_layout.h"
 
 namespace telestrain {
 namespace {
@@ -27,10 +28,15 @@ Result<std::vector<AuditEntry>> TrailInside(const std::string& name, const PdfCo
   TELESTRAIN_ASSIGN_OR_RETURN(auto entries,
                               ReadAuditTrail("the audit trail in " + name, attached->second));
   if (entries.empty()) return BadInput("the audit trail in " + name + " is empty");
+  if (contents.printed_hashes.empty())
+    return BadInput(name +
+                    " prints no SHA-256 of its attachments, so that they can be compared with "
+                    "nothing; make it again with 'telestrain report'");
   if (contents.printed_head != entries.back().hash)
     return BadInput("the audit trail in " + name +
                     " does not end with the line whose hash is printed on its pages: it was cut "
                     "short or continued");
+  TELESTRAIN_RETURN_IF_ERROR(CheckPaths(entries));
   TELESTRAIN_RETURN_IF_ERROR(CheckStory(entries));
   return entries;
 }
@@ -86,6 +92,8 @@ Result<std::string> Signatures(const std::string& name, const std::string& bytes
                        [&](const PdfSignature& signature) { return signature.role == role; }))
         return BadInput("the signature of the " + role + " is missing in " + name + ", which " +
                         LineName(folder->entries, index) + " of the audit trail tells of");
+  if (check.signatures.empty() && !trust.certificates.empty())
+    return BadInput(name + " is not signed although --trust names who may sign");
   if (check.signatures.empty()) return std::string("not signed");
   std::string text;
   for (const PdfSignature& signature : check.signatures) {
@@ -94,6 +102,26 @@ Result<std::string> Signatures(const std::string& name, const std::string& bytes
       text += " (not told of in the audit trail)";
   }
   return text;
+}
+
+// A report that carries nothing (level 1b) is known by its bytes before the first signature, and
+// outside of its results folder by its signatures alone.
+Status CheckBare(const std::string& name, const std::string& bytes, const FolderTrail* folder) {
+  const SignedLayout layout = ReadSignedLayout(bytes);
+  if (!folder && layout.signatures.empty())
+    return BadInput(name +
+                    " carries no audit trail and no signature: nothing in it can be checked; "
+                    "verify its results folder");
+  if (!folder) return {};
+  const std::size_t made_bytes =
+      layout.signatures.empty() ? bytes.size() : layout.signatures.front().begin;
+  const auto report = std::find_if(folder->entries.rbegin(), folder->entries.rend(),
+                                   [](const AuditEntry& entry) { return entry.type == "report"; });
+  if (report != folder->entries.rend() &&
+      TextAt(FindBy(ListAt(report->body, "/outputs"), "path", name), "/sha256") ==
+          Sha256Hex(std::string_view(bytes).substr(0, made_bytes)))
+    return {};
+  return BadInput(name + " carries no audit trail");
 }
 
 Status CheckAgainstFolder(const std::string& name, const PdfContents& contents,
@@ -111,6 +139,11 @@ Status CheckAgainstFolder(const std::string& name, const PdfContents& contents,
 Result<std::string> CheckReport(const std::string& name, const std::string& bytes,
                                 const TrustOptions& trust, const FolderTrail* folder) {
   TELESTRAIN_ASSIGN_OR_RETURN(const PdfContents contents, ReadPdfContents(name, bytes));
+  if (contents.attachments.empty()) {
+    TELESTRAIN_RETURN_IF_ERROR(CheckBare(name, bytes, folder));
+    TELESTRAIN_ASSIGN_OR_RETURN(const std::string words, Signatures(name, bytes, trust, folder));
+    return "no attachments (level 1b), " + words;
+  }
   TELESTRAIN_ASSIGN_OR_RETURN(const auto entries, TrailInside(name, contents));
   TELESTRAIN_RETURN_IF_ERROR(CheckAttachments(name, contents, entries));
   if (folder) TELESTRAIN_RETURN_IF_ERROR(CheckAgainstFolder(name, contents, *folder));

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "base/files.h"
+#include "base/utf8.h"
 #include "report/audit/audit_trail.h"
 #include "report/signature/sign_report.h"
 #include "report/signature/utc_time.h"
@@ -118,8 +119,9 @@ Result<int> SignStep(const SignArguments& arguments, Console& console) {
         trail->Append("sign", EntryOf(arguments, before, signed_report), IsoTime(options.time_s)));
     TELESTRAIN_RETURN_IF_ERROR(trail->Sync());
   }
-  console.Say("signed     " + target + " as " + options.role + ": " + signed_report.signer +
-              ", certificate " + signed_report.fingerprint.substr(0, 16) + "…");
+  console.Say("signed     " + target + " as " + options.role + ": " +
+              PrintableText(signed_report.signer) + ", certificate " +
+              signed_report.fingerprint.substr(0, 16) + "…");
   return 0;
 }
 
