@@ -75,6 +75,25 @@ PdfInfo InfoOf(const ReportTemplate& layout, const Json& results, const Json& va
   return info;
 }
 
+// The height that the block needs at least to begin on a page.
+double Beginning_pt(const Json& block) {
+  constexpr double kSignatures_pt = 150, kCaption_pt = 30, kOther_pt = 70;
+  const std::string type = TextAt(block, "/type");
+  if (type == "signatures") return kSignatures_pt;
+  if (type == "chart") return *NumberAt(block, "/height_mm") * kPointsPerMm + kCaption_pt;
+  return kOther_pt;
+}
+
+// A heading goes to the next page with the block that follows it.
+void KeepHeadingWithNext(const ReportContext& context, std::size_t i) {
+  constexpr double kHeading_pt = 34;
+  const Json& blocks = context.layout.blocks();
+  if (TextAt(blocks[i], "/type") != "heading" || !IsWanted(context.results, blocks[i])) return;
+  for (++i; i < blocks.size(); ++i)
+    if (IsWanted(context.results, blocks[i]))
+      return context.flow.Require(kHeading_pt + Beginning_pt(blocks[i]));
+}
+
 }  // namespace
 
 Status WriteReport(const std::filesystem::path& results, const ReportOptions& options) {
@@ -100,9 +119,11 @@ Status WriteReport(const std::filesystem::path& results, const ReportOptions& op
   PageFlow flow(*pdf, layout.look());
   flow.StartPage();
   const ReportContext context{results, layout, said, values, flow};
-  for (std::size_t i = 0; i < layout.blocks().size(); ++i)
+  for (std::size_t i = 0; i < layout.blocks().size(); ++i) {
+    KeepHeadingWithNext(context, i);
     TELESTRAIN_RETURN_IF_ERROR(
         DrawBlock(context, "/blocks/" + std::to_string(i), layout.blocks()[i]));
+  }
   DrawPageFrames(context);
   for (PdfAttachment& attachment : attachments) pdf->Attach(std::move(attachment));
   TELESTRAIN_ASSIGN_OR_RETURN(
