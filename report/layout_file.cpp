@@ -29,8 +29,8 @@ std::optional<std::string> NameFault(const std::string& name, bool in_frame) {
   static const std::map<std::string, std::vector<std::string>> kEntries = {
       {"report", {"title", "number", "revision"}}, {"file", {"results_sha256"}}};
   static const std::vector<std::string> kWords = {
-      "page",     "pages",     "report", "section", "document", "decision", "sentences",
-      "measured", "diagnosis", "file",   "title",   "verdict",  "schema"};
+      "page",      "pages", "report", "section", "document", "decision", "sentences", "measured",
+      "diagnosis", "file",  "title",  "verdict", "schema",   "study"};  // of a study's report
   const std::size_t dot = name.find('.');
   const std::string word = name.substr(0, dot);
   if (!Contains(kWords, word)) return Unknown(name, word, kWords);

@@ -115,7 +115,6 @@ void AddItem(const Json& inputs, ResultsDraft& draft) {
   ResultTable table("statements", "Statements", {{"On", ""}, {"Statement", ""}});
   table.AddRow({"Scope", "The results relate only to the items tested."});
   table.AddRow({"Uncertainty", UncertaintySentence(draft.acceptance)});
-  table.AddRow({"Decision rule", RuleSentence(draft.acceptance)});
   table.AddRow({"Reproduction", "This report may not be reproduced except in full."});
   const char* authoriser = GivenKey(kEntries.back(), document);
   table.AddRow({"Authorised by", authoriser ? Json(TextAt(document, std::string("/") + authoriser))
