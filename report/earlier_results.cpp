@@ -5,6 +5,7 @@
 
 #include "base/files.h"
 #include "base/json_file.h"
+#include "base/numbers.h"
 #include "report/reading/pdf_contents.h"
 
 namespace telestrain {
@@ -82,6 +83,38 @@ std::string Listed(const std::vector<std::string>& names) {
   return text;
 }
 
+std::string RegionWords(const Json& inputs, const Json& view) {
+  const Json& region =
+      EntryAt(FindBy(ListAt(inputs, "/views"), "name", TextAt(view, "/name")), "/region_px");
+  return region.is_array() ? region.dump() : "";
+}
+
+// What makes two sessions those of different instruments or artefacts, then against now in words;
+// "" when nothing does. What one of them does not say is not compared.
+std::string Unlike(const Json& then, const Json& now) {
+  const auto differ = [](const std::string& what, const std::string& a, const std::string& b) {
+    return a.empty() || b.empty() || a == b ? "" : what + " " + a + ", these results have " + b;
+  };
+  const auto number = [&](const char* what, const char* pointer) {
+    const auto a = NumberAt(then, pointer), b = NumberAt(now, pointer);
+    return a && b ? differ(what, FormatShortest(*a), FormatShortest(*b)) : "";
+  };
+  std::vector<std::string> found{number("the sensor width in px", "/sensor/width_px"),
+                                 number("the sensor height in px", "/sensor/height_px"),
+                                 number("the nominal magnification", "/lens/magnification")};
+  for (const Json& view : ListAt(now, "/views"))
+    found.push_back(differ("for view " + TextAt(view, "/name", "?") + " the region_px",
+                           RegionWords(then, view), RegionWords(now, view)));
+  for (const char* key :
+       {"instrument_serial", "camera_serial", "lens_serial", "target_serial", "ruler_serial"}) {
+    const std::string pointer = std::string("/document/") + key;
+    found.push_back(differ(key, TextAt(then, pointer), TextAt(now, pointer)));
+  }
+  for (const std::string& words : found)
+    if (!words.empty()) return words;
+  return "";
+}
+
 // SHA-256 of the files that hold what was measured.
 std::map<std::string, std::string> MeasuredFiles(const Json& table) {
   std::map<std::string, std::string> hashes;
@@ -106,6 +139,10 @@ Status RequireComparable(const EarlierResults& earlier, const std::string& name,
   if (now != then)
     return BadInput(name + ": has the views '" + Listed(then) + "', these results have '" +
                     Listed(now) + "'; compare reports of one instrument");
+  const std::string unlike = Unlike(EntryAt(earlier.results, "/inputs"), inputs);
+  if (!unlike.empty())
+    return BadInput(name + ": has " + unlike +
+                    "; compare reports of one instrument, or correct session.toml");
   const auto files = MeasuredFiles(results_files);
   const Json& before = FindBy(ListAt(earlier.results, "/tables"), "id", "result-files");
   if (!files.empty() && files == MeasuredFiles(before))

@@ -67,6 +67,11 @@ class ResultTable {
  public:
   ResultTable(std::string id, std::string title, std::vector<ResultColumn> columns);
   void AddRow(std::vector<Json> cells);  // as many as there are columns
+  // Prints the numbers of these columns anew at one decimal place, that of DecimalsOfColumn.
+  void AlignDecimals(const std::vector<double>& expanded_uncertainties,
+                     const std::vector<std::size_t>& columns);
+  // The same by the uncertainties of the column `uncertainty`, which is aligned, too.
+  void AlignDecimals(std::size_t uncertainty, std::vector<std::size_t> columns);
   // The last row leads to this section of the report: "row_links" has one entry per row, null where
   // none is set.
   void LinkLastRow(const std::string& section);

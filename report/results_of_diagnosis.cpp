@@ -7,8 +7,8 @@
 namespace telestrain {
 namespace {
 
-// The differences are of the order of 1e-10: in this unit they read well.
-constexpr double kUnitsPerOne = 1e9;
+// In this unit the limits are about one.
+constexpr double kUnitsPerOne = 1e6;
 
 struct Check {
   const char* id;
@@ -21,13 +21,13 @@ struct Check {
 
 constexpr std::array<Check, 4> kChecks{
     {{"mrcal_optimum_difference", "Largest difference to mrcal's own optimum",
-      "/max_residual_difference_px", "/limits/residual_difference_px", "10⁻⁹ px", true},
+      "/max_residual_difference_px", "/limits/residual_difference_px", "10⁻⁶ px", true},
      {"mrcal_magnification_difference", "Magnifications at mrcal's own optimum, relative",
-      "/max_magnification_difference", "/limits/magnification_difference", "10⁻⁹", false},
+      "/max_magnification_difference", "/limits/magnification_difference", "10⁻⁶", false},
      {"mrcal_rotation_difference", "Rotations between the views at mrcal's own optimum",
-      "/max_rotation_difference_rad", "/limits/rotation_difference_rad", "10⁻⁹ rad", false},
+      "/max_rotation_difference_rad", "/limits/rotation_difference_rad", "10⁻⁶ rad", false},
      {"mrcal_projection_difference", "Largest difference of mrcal's projection at our solution",
-      "/evaluated_max_residual_difference_px", "/limits/residual_difference_px", "10⁻⁹ px", true}}};
+      "/evaluated_max_residual_difference_px", "/limits/residual_difference_px", "10⁻⁶ px", true}}};
 
 std::optional<double> ScaledAt(const Json& json, const char* pointer) {
   const auto value = NumberAt(json, pointer);
@@ -37,7 +37,7 @@ std::optional<double> ScaledAt(const Json& json, const char* pointer) {
 // Places that show two significant digits.
 int DecimalsOf(double value) {
   if (value <= 0) return 2;
-  return std::clamp(1 - static_cast<int>(std::floor(std::log10(value))), 0, 6);
+  return std::clamp(1 - static_cast<int>(std::floor(std::log10(value))), 0, 9);
 }
 
 Quantity QuantityOf(const Check& check, const Json& optimum, const Acceptance& acceptance) {
@@ -90,15 +90,15 @@ std::string YesOrNo(const Json& json) {
 }
 
 void AddCheckFacts(const Json& optimum, ResultsDraft& draft) {
-  constexpr int kRmsDecimals = 12;  // shows where the two differ
+  constexpr int kDigits = 4;  // by how much the two differ says the table above
   ResultTable table = FactTable("mrcal-facts", "What was compared");
   table.AddFact("Model of the optimum", TextAt(optimum, "/model", kNoValue));
   table.AddFact("RMS at our optimum of this model",
-                FixedCell(NumberAt(optimum, "/rms_px"), kRmsDecimals), "px");
+                SignificantCell(NumberAt(optimum, "/rms_px"), kDigits), "px");
   table.AddFact("RMS at mrcal's optimum",
-                FixedCell(NumberAt(optimum, "/mrcal_rms_px"), kRmsDecimals), "px");
-  table.AddFact("Telecentricity left out",
-                SignificantCell(NumberAt(optimum, "/telecentricity_left_out_per_mm"), 2), "1/mm");
+                SignificantCell(NumberAt(optimum, "/mrcal_rms_px"), kDigits), "px");
+  const double left_out = NumberAt(optimum, "/telecentricity_left_out_per_mm").value_or(0);
+  if (left_out != 0) table.AddFact("Telecentricity left out", SignificantCell(left_out, 2), "1/mm");
   table.AddFact("Projection compared at", TextAt(optimum, "/evaluated", kNoValue));
   table.AddFact("mrcal converged", YesOrNo(EntryAt(optimum, "/mrcal_converged")));
   table.AddFact("Images", CountCell(NumberAt(optimum, "/images")));
