@@ -7,8 +7,8 @@
 namespace telestrain {
 namespace {
 
-// In this unit the limits are about one.
-constexpr double kUnitsPerOne = 1e6;
+// In these units the limits are about one, and what has none reads well.
+constexpr double kLimitedPerOne = 1e6, kFreePerOne = 1e9;
 
 struct Check {
   const char* id;
@@ -16,22 +16,27 @@ struct Check {
   const char* value;  // JSON pointers into independent_optimum
   const char* limit;
   const char* unit;
+  double units_per_one;
   bool always_in_summary;  // the others only when they did not pass
 };
 
 constexpr std::array<Check, 4> kChecks{
     {{"mrcal_optimum_difference", "Largest difference to mrcal's own optimum",
-      "/max_residual_difference_px", "/limits/residual_difference_px", "10⁻⁶ px", true},
+      "/max_residual_difference_px", "/limits/residual_difference_px", "10⁻⁶ px", kLimitedPerOne,
+      true},
      {"mrcal_magnification_difference", "Magnifications at mrcal's own optimum, relative",
-      "/max_magnification_difference", "/limits/magnification_difference", "10⁻⁶", false},
+      "/max_magnification_difference", "/limits/magnification_difference", "10⁻⁹", kFreePerOne,
+      false},
      {"mrcal_rotation_difference", "Rotations between the views at mrcal's own optimum",
-      "/max_rotation_difference_rad", "/limits/rotation_difference_rad", "10⁻⁶ rad", false},
+      "/max_rotation_difference_rad", "/limits/rotation_difference_rad", "10⁻⁹ rad", kFreePerOne,
+      false},
      {"mrcal_projection_difference", "Largest difference of mrcal's projection at our solution",
-      "/evaluated_max_residual_difference_px", "/limits/residual_difference_px", "10⁻⁶ px", true}}};
+      "/evaluated_max_residual_difference_px", "/limits/residual_difference_px", "10⁻⁶ px",
+      kLimitedPerOne, true}}};
 
-std::optional<double> ScaledAt(const Json& json, const char* pointer) {
+std::optional<double> ScaledAt(const Json& json, const char* pointer, double units_per_one) {
   const auto value = NumberAt(json, pointer);
-  return value ? std::optional<double>(kUnitsPerOne * *value) : std::nullopt;
+  return value ? std::optional<double>(units_per_one * *value) : std::nullopt;
 }
 
 // Places that show two significant digits.
@@ -48,8 +53,8 @@ Quantity QuantityOf(const Check& check, const Json& optimum, const Acceptance& a
   quantity.unit = check.unit;
   quantity.limit_kind = "max";
   quantity.is_check = true;
-  quantity.value = ScaledAt(optimum, check.value);
-  quantity.limit = ScaledAt(optimum, check.limit);
+  quantity.value = ScaledAt(optimum, check.value, check.units_per_one);
+  quantity.limit = ScaledAt(optimum, check.limit, check.units_per_one);
   quantity.decimals = DecimalsOf(quantity.value.value_or(0));
   quantity.verdict = acceptance.DecideQuantity(quantity);
   quantity.in_summary = check.always_in_summary || quantity.verdict == Verdict::kFail;
