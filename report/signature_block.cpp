@@ -27,8 +27,8 @@ class SignatureBoxes {
     const double inner_pt = box.width_pt - 2 * kInset_pt, line_pt = box.bottom_pt + 24;
     const PagePoint line{box.left_pt + kInset_pt, line_pt};
     flow_.pdf().DrawLine(line, {line.x_pt + inner_pt, line_pt}, {look_.muted, 0.5});
-    const double name_pt = DrawWords(NameStyle(), {line.x_pt, box.top_pt() - 6}, inner_pt,
-                                     context_.layout.Say(role));
+    const double name_pt =
+        DrawWords(NameStyle(), {line.x_pt, box.top_pt() - 6}, inner_pt, context_.layout.Say(role));
     AddField(role, {line.x_pt, line_pt + 1, inner_pt, box.top_pt() - 6 - name_pt - line_pt - 2});
     DrawWords(NoteStyle(), {line.x_pt, line_pt - 3}, inner_pt, note_);
   }
@@ -38,8 +38,7 @@ class SignatureBoxes {
     DrawFrame(box);
     const double half_pt = box.width_pt / 2 - kInset_pt;
     const PagePoint at{box.left_pt + kInset_pt, box.top_pt() - 6};
-    const double name_pt =
-        DrawWords(NameStyle(), at, half_pt, context_.layout.Say(kInstrument));
+    const double name_pt = DrawWords(NameStyle(), at, half_pt, context_.layout.Say(kInstrument));
     DrawWords(NoteStyle(), {at.x_pt, at.y_pt - name_pt}, half_pt,
               context_.layout.Say("Seal of the instrument"));
     AddField(kInstrument,
