@@ -51,6 +51,8 @@ struct ReportOptions {
   ArchiveLevel level = ArchiveLevel::k3a;
   // Called for every wording that the language lacks and that is printed in English; may be empty.
   std::function<void(const std::string&)> on_untranslated = {};
+  // Called for what the layout asks for in vain (LayoutNotes); may be empty.
+  std::function<void(const std::string&)> on_note = {};
 };
 
 // Writes report.pdf (A4, PDF/A-3a and PDF/UA-1, fonts embedded, bookmarks) from results.json,

@@ -12,12 +12,11 @@ constexpr const char *kMeasurand = "/0", *kComponent = "/1", *kUncertainty = "/2
 
 struct Bar {
   std::string component, printed;
-  double share = 0;  // of the combined uncertainty, 0 to 1
+  double share = 0;  // of the variance, 0 to 1
 };
 
 struct BarGroup {
   std::string measurand;
-  double largest = 0;
   std::vector<Bar> bars;
 };
 
@@ -26,21 +25,16 @@ struct BarGroup {
 std::vector<BarGroup> BarGroups(const ReportContext& context) {
   std::vector<BarGroup> groups;
   for (const Json& row : ListAt(context.Table("budget"), "/rows")) {
-    const auto value = NumberAt(row, std::string(kUncertainty) + "/value"),
-               share = NumberAt(row, std::string(kShare) + "/value");
-    if (!value || !share) continue;
+    const auto share = NumberAt(row, std::string(kShare) + "/value");
+    if (!share) continue;
     const std::string measurand = TextAt(row, kMeasurand);
-    if (groups.empty() || groups.back().measurand != measurand)
-      groups.push_back({measurand, 0, {}});
+    if (groups.empty() || groups.back().measurand != measurand) groups.push_back({measurand, {}});
     BarGroup& group = groups.back();
-    group.largest = std::max(group.largest, *value);
     group.bars.push_back(
         {TextAt(row, kComponent),
          TextAt(row, kUncertainty) + " " + TextAt(row, kUnit) + ", " + TextAt(row, kShare) + " %",
-         *value});
+         *share / 100});
   }
-  for (BarGroup& group : groups)
-    for (Bar& bar : group.bars) bar.share = group.largest > 0 ? bar.share / group.largest : 0;
   return groups;
 }
 

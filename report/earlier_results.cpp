@@ -5,6 +5,7 @@
 
 #include "base/files.h"
 #include "base/json_file.h"
+#include "base/numbers.h"
 #include "report/reading/pdf_contents.h"
 
 namespace telestrain {
@@ -15,9 +16,12 @@ namespace fs = std::filesystem;
 constexpr const char* kRemedy =
     "; name the results folder of an earlier 'telestrain report', or its report.pdf";
 
+// A results.json with thousands of states has a few; parsed, it takes many times as much memory.
+constexpr std::size_t kMostJsonBytes = std::size_t{32} << 20;
+
 Result<Json> ParseAttachment(const std::string& pdf, const std::string& name,
                              const std::string& text, const std::string& schema) {
-  Json json = Json::parse(text, nullptr, false);
+  Json json = IsJsonDeeper(text) ? Json() : Json::parse(text, nullptr, false);
   if (json.is_discarded() || TextAt(json, "/schema") != schema)
     return BadInput(pdf + ": its attachment " + name + " is no " + schema + kRemedy);
   return json;
@@ -45,6 +49,11 @@ Result<EarlierResults> ReadReport(const fs::path& pdf) {
   const auto results = contents.attachments.find("results.json");
   if (results == contents.attachments.end())
     return BadInput(pdf.string() + ": has no attachment results.json" + kRemedy);
+  for (const auto& [name, content] : contents.attachments)
+    if (content.size() > kMostJsonBytes)
+      return BadInput(pdf.string() + ": its attachment " + name + " has " +
+                      std::to_string(content.size()) + " bytes, at most " +
+                      std::to_string(kMostJsonBytes) + " are read" + kRemedy);
   earlier.file = "report.pdf";
   earlier.sha256 = Sha256Hex(bytes);
   TELESTRAIN_ASSIGN_OR_RETURN(
@@ -74,6 +83,38 @@ std::string Listed(const std::vector<std::string>& names) {
   return text;
 }
 
+std::string RegionWords(const Json& inputs, const Json& view) {
+  const Json& region =
+      EntryAt(FindBy(ListAt(inputs, "/views"), "name", TextAt(view, "/name")), "/region_px");
+  return region.is_array() ? region.dump() : "";
+}
+
+// What makes two sessions those of different instruments or artefacts, then against now in words;
+// "" when nothing does. What one of them does not say is not compared.
+std::string Unlike(const Json& then, const Json& now) {
+  const auto differ = [](const std::string& what, const std::string& a, const std::string& b) {
+    return a.empty() || b.empty() || a == b ? "" : what + " " + a + ", these results have " + b;
+  };
+  const auto number = [&](const char* what, const char* pointer) {
+    const auto a = NumberAt(then, pointer), b = NumberAt(now, pointer);
+    return a && b ? differ(what, FormatShortest(*a), FormatShortest(*b)) : "";
+  };
+  std::vector<std::string> found{number("the sensor width in px", "/sensor/width_px"),
+                                 number("the sensor height in px", "/sensor/height_px"),
+                                 number("the nominal magnification", "/lens/magnification")};
+  for (const Json& view : ListAt(now, "/views"))
+    found.push_back(differ("for view " + TextAt(view, "/name", "?") + " the region_px",
+                           RegionWords(then, view), RegionWords(now, view)));
+  for (const char* key :
+       {"instrument_serial", "camera_serial", "lens_serial", "target_serial", "ruler_serial"}) {
+    const std::string pointer = std::string("/document/") + key;
+    found.push_back(differ(key, TextAt(then, pointer), TextAt(now, pointer)));
+  }
+  for (const std::string& words : found)
+    if (!words.empty()) return words;
+  return "";
+}
+
 // SHA-256 of the files that hold what was measured.
 std::map<std::string, std::string> MeasuredFiles(const Json& table) {
   std::map<std::string, std::string> hashes;
@@ -98,6 +139,10 @@ Status RequireComparable(const EarlierResults& earlier, const std::string& name,
   if (now != then)
     return BadInput(name + ": has the views '" + Listed(then) + "', these results have '" +
                     Listed(now) + "'; compare reports of one instrument");
+  const std::string unlike = Unlike(EntryAt(earlier.results, "/inputs"), inputs);
+  if (!unlike.empty())
+    return BadInput(name + ": has " + unlike +
+                    "; compare reports of one instrument, or correct session.toml");
   const auto files = MeasuredFiles(results_files);
   const Json& before = FindBy(ListAt(earlier.results, "/tables"), "id", "result-files");
   if (!files.empty() && files == MeasuredFiles(before))

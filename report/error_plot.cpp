@@ -35,8 +35,7 @@ void DrawLimits(const ReportContext& context, const ErrorChart& chart, const Err
   const TextStyle style{Face::kRegular, 7.5, context.flow.look().fail};
   context.flow.pdf().DrawText(
       style, {plot.area().right_pt() - 4, plot.area().top_pt() - 9},
-      chart.limit_text + " (" + context.layout.Say("outside this chart") + ")",
-      Align::kRight);
+      chart.limit_text + " (" + context.layout.Say("outside this chart") + ")", Align::kRight);
 }
 
 }  // namespace

@@ -28,37 +28,57 @@ std::string FactText(const Json& row) {
   return CellText(row[1]) + (unit.empty() || unit == "°" ? "" : " ") + unit;
 }
 
-}  // namespace
+struct FactRows {
+  RowFrame frame;
+  std::vector<std::vector<CellLines>> rows;
+};
 
-void DrawFacts(PageFlow& flow, const Json& table, int columns, double width_pt,
-               const std::function<std::string(const std::string&)>& translate) {
+// `tags`: a pair for every fact, or none when the rows are only measured.
+FactRows MakeFactRows(PageFlow& flow, const Json& table, int columns, double width_pt,
+                      const std::vector<FactTags>& tags) {
   const TextStyle name_style{Face::kRegular, flow.look().Scaled_pt(8.5), flow.look().muted};
   const TextStyle value_style{Face::kRegular, flow.look().Scaled_pt(9), flow.look().ink};
-  const Json& rows = ListAt(table, "/rows");
+  const Json& facts = ListAt(table, "/rows");
   const double gap_pt = 14, column_pt = (width_pt - gap_pt * (columns - 1)) / columns;
-  const auto name_of = [&](const Json& row) { return translate(CellText(row[0])); };
   double name_pt = 0;
-  for (const Json& row : rows)
-    name_pt = std::max(name_pt, flow.pdf().TextWidth_pt(name_style, name_of(row)) + 10);
+  for (const Json& fact : facts)
+    name_pt = std::max(name_pt, flow.pdf().TextWidth_pt(name_style, CellText(fact[0])) + 10);
   name_pt = std::clamp(name_pt, 60.0, 0.62 * column_pt);
-  RowFrame frame;
-  frame.line_height_pt = value_style.LineHeight_pt();
-  frame.start_new_page = [&] { flow.StartPage(); };
-  const ScopedTag facts(flow.pdf(), PdfTag{"Table"});
-  const std::vector<FactTags> tags = TagFacts(flow.pdf(), rows.size());
-  const std::size_t lines = (rows.size() + columns - 1) / columns;
+  FactRows made;
+  made.frame.line_height_pt = value_style.LineHeight_pt();
+  made.frame.start_new_page = [&flow] { flow.StartPage(); };
+  const std::size_t lines = (facts.size() + columns - 1) / columns;
   for (std::size_t line = 0; line < lines; ++line) {
     std::vector<CellLines> cells;
     double x_pt = flow.left_pt();
-    for (std::size_t i = line; i < rows.size(); i += lines, x_pt += column_pt + gap_pt) {
-      cells.push_back(MakeCellLines(flow.pdf(), name_style, x_pt, name_pt - 6, name_of(rows[i])));
+    for (std::size_t i = line; i < facts.size(); i += lines, x_pt += column_pt + gap_pt) {
+      cells.push_back(
+          MakeCellLines(flow.pdf(), name_style, x_pt, name_pt - 6, CellText(facts[i][0])));
       cells.push_back(MakeCellLines(flow.pdf(), value_style, x_pt + name_pt, column_pt - name_pt,
-                                    FactText(rows[i])));
+                                    FactText(facts[i])));
+      if (tags.empty()) continue;
       (cells.end() - 2)->tag = tags[i].name;
       cells.back().tag = tags[i].value;
     }
-    DrawRow(flow, cells, frame);
+    made.rows.push_back(std::move(cells));
   }
+  return made;
+}
+
+}  // namespace
+
+double FactsHeight_pt(PageFlow& flow, const Json& table, int columns, double width_pt) {
+  const FactRows facts = MakeFactRows(flow, table, columns, width_pt, {});
+  double height_pt = 0;
+  for (const auto& row : facts.rows) height_pt += RowHeight_pt(row, facts.frame);
+  return height_pt;
+}
+
+void DrawFacts(PageFlow& flow, const Json& table, int columns, double width_pt) {
+  const ScopedTag tag(flow.pdf(), PdfTag{"Table"});
+  const std::vector<FactTags> tags = TagFacts(flow.pdf(), ListAt(table, "/rows").size());
+  const FactRows facts = MakeFactRows(flow, table, columns, width_pt, tags);
+  for (const auto& row : facts.rows) DrawRow(flow, row, facts.frame);
   flow.Advance(6);
 }
 

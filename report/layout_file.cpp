@@ -1,6 +1,8 @@
 #include "report/layout_file.h"
 
 #include <algorithm>
+#include <map>
+#include <optional>
 #include <vector>
 
 #include "base/numbers.h"
@@ -16,11 +18,60 @@ bool Contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
+std::string Unknown(const std::string& name, const std::string& word,
+                    const std::vector<std::string>& known) {
+  return "there is no {{" + name + "}}; did you mean '" + NearestWord(word, known) + "'?";
+}
+
+// What is wrong with a name that nothing fills. Entries of [document] are the user's own, and what
+// other parts hold depends on what was measured.
+std::optional<std::string> NameFault(const std::string& name, bool in_frame) {
+  static const std::map<std::string, std::vector<std::string>> kEntries = {
+      {"report", {"title", "number", "revision"}}, {"file", {"results_sha256"}}};
+  static const std::vector<std::string> kWords = {
+      "page",      "pages", "report", "section", "document", "decision", "sentences", "measured",
+      "diagnosis", "file",  "title",  "verdict", "schema",   "study"};  // of a study's report
+  const std::size_t dot = name.find('.');
+  const std::string word = name.substr(0, dot);
+  if (!Contains(kWords, word)) return Unknown(name, word, kWords);
+  if ((word == "page" || word == "pages") && !in_frame)
+    return "{{" + name + "}} is known in the header and the footer only";
+  const auto entries = kEntries.find(word);
+  if (entries == kEntries.end() || dot == std::string::npos) return {};
+  const std::string entry = name.substr(dot + 1);
+  if (Contains(entries->second, entry)) return {};
+  return Unknown(name, entry, entries->second);
+}
+
+std::optional<std::string> NamesFault(const std::string& text, const std::string& pointer) {
+  const bool in_frame = pointer.rfind("/header", 0) == 0 || pointer.rfind("/footer", 0) == 0;
+  for (const TextName& place : PlacesInText(text))
+    if (!place.relative)
+      if (auto fault = NameFault(place.name, in_frame)) return fault;
+  return {};
+}
+
+// A label may name what its text names, and nothing else.
+Status CheckLabels(const std::string& where, const Json& labels) {
+  if (!labels.is_object()) return {};
+  for (const auto& [text, wording] : labels.items()) {
+    const std::set<std::string> names = NamesInText(text);
+    for (const std::string& name : NamesInText(wording.get<std::string>()))
+      if (names.count(name) == 0)
+        return BadInput(where + ": /labels/" + PointerStep(text) + ": names {{" + name +
+                        "}}, which its text does not");
+  }
+  return {};
+}
+
 // The {{…}} of every text in it.
 Status CheckTexts(const std::string& where, const std::string& pointer, const Json& json) {
-  if (json.is_string())
-    if (const auto fault = TextFault(json.get<std::string>()))
-      return BadInput(where + ": " + pointer + ": " + *fault);
+  if (json.is_string()) {
+    auto fault = TextFault(json.get<std::string>());
+    if (!fault && pointer.rfind("/labels/", 0) != 0)
+      fault = NamesFault(json.get<std::string>(), pointer);
+    if (fault) return BadInput(where + ": " + pointer + ": " + *fault);
+  }
   if (json.is_object())
     for (const auto& [key, value] : json.items())
       TELESTRAIN_RETURN_IF_ERROR(CheckTexts(where, pointer + "/" + PointerStep(key), value));
@@ -80,6 +131,7 @@ Result<Json> ReadLayout(const TemplateFolder& folder, const TemplateFile& file) 
   TELESTRAIN_ASSIGN_OR_RETURN(Json layout, ParseTemplate(file));
   TELESTRAIN_RETURN_IF_ERROR(CheckAgainstSchema(LayoutSchema(), "#", file.where, layout));
   TELESTRAIN_RETURN_IF_ERROR(CheckTexts(file.where, "", layout));
+  TELESTRAIN_RETURN_IF_ERROR(CheckLabels(file.where, EntryAt(layout, "/labels")));
   TELESTRAIN_ASSIGN_OR_RETURN(Json blocks,
                               Includer(folder).Expand(file.where, "/blocks", layout["blocks"]));
   layout["blocks"] = std::move(blocks);

@@ -164,22 +164,22 @@ void AddSections(const Parts& parts, const ReportScope& scope, ResultsDraft& dra
   AddRuler(ruler, draft);
   AddStrain(strain, draft);
   AddCorrelation(parts.inputs, parts.calibration, strain, draft);
-  AddBudgets(ruler, strain, draft);
+  AddBudgets(part("calibration", parts.calibration), ruler, strain, draft);
   LeaveScope(scope, draft);
 }
 
 // What moved since the earlier calibration. comparison.json counts when it compares with that very
 // file; else the two are compared here.
-void AddInstrumentChanges(const Parts& parts, const EarlierResults& earlier,
-                          const std::string& calibration_sha256, ResultsDraft& draft) {
+ChangeCount AddInstrumentChanges(const Parts& parts, const EarlierResults& earlier,
+                                 const std::string& calibration_sha256, ResultsDraft& draft) {
   if (!earlier.calibration_sha256.empty() && earlier.calibration_sha256 == calibration_sha256) {
     draft.sentences["changes_calibration"] = "Both reports use the same calibration.";
-    return;
+    return {};
   }
   const bool same = TextAt(parts.comparison, "/compared_with/sha256") == earlier.calibration_sha256;
-  AddCalibrationChanges(same ? ChangesOfComparison(parts.comparison)
-                             : ChangesOfCalibrations(earlier.calibration, parts.calibration),
-                        draft);
+  return AddCalibrationChanges(same ? ChangesOfComparison(parts.comparison)
+                                    : ChangesOfCalibrations(earlier.calibration, parts.calibration),
+                               draft);
 }
 
 Status AddEarlier(const Parts& parts, const ReportScope& scope, const Json& evidence,
@@ -192,11 +192,12 @@ Status AddEarlier(const Parts& parts, const ReportScope& scope, const Json& evid
   TELESTRAIN_ASSIGN_OR_RETURN(const EarlierResults earlier, ReadEarlierResults(scope.earlier));
   TELESTRAIN_RETURN_IF_ERROR(RequireComparable(earlier, scope.earlier.string(), parts.inputs,
                                                parts.calibration, evidence));
-  AddChanges(earlier, draft);
+  const ChangeCount quantities = AddChanges(earlier, draft);
   std::string calibration_sha256;
   for (const Json& row : ListAt(evidence, "/rows"))
     if (TextAt(row, "/0") == "calibration.json") calibration_sha256 = TextAt(row, "/2");
-  AddInstrumentChanges(parts, earlier, calibration_sha256, draft);
+  const ChangeCount moved = AddInstrumentChanges(parts, earlier, calibration_sha256, draft);
+  AddComparedWith(earlier, quantities, moved, draft);
   return {};
 }
 

@@ -1,5 +1,8 @@
 #include "report/page_flow.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "report/text_wrap.h"
 
 namespace telestrain {
@@ -10,6 +13,16 @@ constexpr double kSideMargin_pt = 20 * kPointsPerMm;
 constexpr double kTop_pt = kPageHeight_pt - 24 * kPointsPerMm;
 constexpr double kBottom_pt = 22 * kPointsPerMm;
 constexpr double kAscent = 0.94;  // of the size: where the base line stands in its line
+
+// How many of `left` lines go on this page, where `room` lines fit: on both sides of a break stand
+// at least two. 0: start a new one.
+std::size_t LinesHere(std::size_t left, double room) {
+  constexpr std::size_t kFewest = 2;
+  const std::size_t here = static_cast<std::size_t>(std::max(0.0, std::floor(room + 1e-6)));
+  if (left <= here) return left;
+  const std::size_t count = std::min(here, left - std::min(left, kFewest));
+  return count < kFewest ? 0 : count;
+}
 
 }  // namespace
 
@@ -41,10 +54,17 @@ void PageFlow::Require(double height_pt) {
 
 void PageFlow::Paragraph(const TextStyle& style, const std::string& text, const PdfTag& tag) {
   const ScopedTag paragraph(pdf_, tag);
-  for (const std::string& line : WrapText(pdf_, style, text, width_pt())) {
-    Require(style.LineHeight_pt());
-    pdf_.DrawText(style, {left_pt(), y_pt_ - kAscent * style.size_pt}, line);
-    Advance(style.LineHeight_pt());
+  const std::vector<std::string> lines = WrapText(pdf_, style, text, width_pt());
+  for (std::size_t i = 0; i < lines.size();) {
+    const std::size_t end = i + LinesHere(lines.size() - i, Free_pt() / style.LineHeight_pt());
+    if (end == i) {
+      StartPage();
+      continue;
+    }
+    for (; i < end; ++i) {
+      pdf_.DrawText(style, {left_pt(), y_pt_ - kAscent * style.size_pt}, lines[i]);
+      Advance(style.LineHeight_pt());
+    }
   }
 }
 

@@ -50,7 +50,7 @@ class PageFlow {
   void Advance(double height_pt) { y_pt_ -= height_pt; }
   void MoveTo(double y_pt) { y_pt_ = y_pt; }
 
-  // A wrapped paragraph over the whole width, broken over pages line by line.
+  // A wrapped paragraph over the whole width; at least two lines stand on each side of a break.
   void Paragraph(const TextStyle& style, const std::string& text, const PdfTag& tag = {"P"});
   // Wrapped lines with their first base line just below `top_pt`, a part of the open tag; returns
   // their height.

@@ -64,6 +64,19 @@ Json PhraseOfText(const std::string& text) {
   return values.empty() ? Json(text) : Phrase(pattern, values);
 }
 
+Json ModelPhrase(const std::string& model) {
+  if (const std::size_t comma = model.find(", "); comma != std::string::npos)
+    return JoinPhrases({ModelPhrase(model.substr(0, comma)), ModelPhrase(model.substr(comma + 2))},
+                       ", ");
+  const std::string first = "aspect ", last = " telecentricity";
+  if (model.size() > last.size() && model.ends_with(last))
+    return Phrase("{{lens}} telecentricity",
+                  {{"lens", ModelPhrase(model.substr(0, model.size() - last.size()))}});
+  if (model.size() > first.size() && model.starts_with(first))
+    return Phrase("aspect {{lens}}", {{"lens", ModelPhrase(model.substr(first.size()))}});
+  return model;
+}
+
 Json JoinPhrases(const std::vector<Json>& parts, const std::string& separator) {
   std::string pattern;
   std::map<std::string, Json> values;

@@ -12,12 +12,24 @@ constexpr double kTickType_pt = 7.5, kLabelType_pt = 8, kTitleType_pt = 8.5;
 constexpr double kTickSpacingX_pt = 38, kTickSpacingY_pt = 24;  // about; labels stay apart
 constexpr double kTop_pt = 20;                                  // room for the title or the legend
 
-// A text in the middle of `room_pt`: it shrinks until it fits, and is cut below 5.5 pt.
-void DrawFitted(PdfDocument& pdf, TextStyle style, PagePoint middle, const std::string& text,
-                double room_pt, double rotation_deg = 0) {
-  while (style.size_pt > 5.5 && pdf.TextWidth_pt(style, text) > room_pt) style.size_pt -= 0.25;
-  pdf.DrawText(style, middle, ShortenedText(pdf, style, text, room_pt), Align::kCenter,
-               rotation_deg);
+// A text in the middle of `room_pt`: it shrinks a little, then takes a second line, then shrinks to
+// 6 pt; what still does not fit is cut. `up`: one point from the second line to the first.
+void DrawFitted(PdfDocument& pdf, TextStyle style, PagePoint middle, PagePoint up,
+                const std::string& text, double room_pt, double rotation_deg = 0) {
+  constexpr double kOneLine_pt = 7, kSmallest_pt = 6, kStep_pt = 0.25, kLine_pt = 7.6;
+  while (style.size_pt > kOneLine_pt && pdf.TextWidth_pt(style, text) > room_pt)
+    style.size_pt -= kStep_pt;
+  std::vector<std::string> lines = WrapText(pdf, style, text, room_pt);
+  for (; lines.size() > 2 && style.size_pt > kSmallest_pt; style.size_pt -= kStep_pt)
+    lines = WrapText(pdf, style, text, room_pt);
+  for (std::size_t i = 2; i < lines.size(); ++i) lines[1] += lines[i];
+  lines.resize(std::min<std::size_t>(lines.size(), 2));
+  double shift_pt = lines.size() == 2 ? kLine_pt / 2 : 0;
+  for (const std::string& line : lines) {
+    pdf.DrawText(style, {middle.x_pt + shift_pt * up.x_pt, middle.y_pt + shift_pt * up.y_pt},
+                 ShortenedText(pdf, style, line, room_pt), Align::kCenter, rotation_deg);
+    shift_pt -= kLine_pt;
+  }
 }
 
 }  // namespace
@@ -91,11 +103,11 @@ void Plot::DrawGrid(const PlotAxis& x, const PlotAxis& y) {
     pdf_.DrawText(tick_style, {p.x_pt - 5, p.y_pt - 2.6}, tick.label, Align::kRight);
   }
   pdf_.StrokeBox(area_, frame);
-  DrawFitted(pdf_, label_style, {area_.left_pt + area_.width_pt / 2, area_.bottom_pt - 24}, x.label,
-             area_.width_pt);
+  DrawFitted(pdf_, label_style, {area_.left_pt + area_.width_pt / 2, area_.bottom_pt - 24}, {0, 1},
+             x.label, area_.width_pt);
   if (!y.label.empty())
-    DrawFitted(pdf_, label_style, {outer_.left_pt + 8, area_.bottom_pt + area_.height_pt / 2},
-               y.label, area_.height_pt, 90);
+    DrawFitted(pdf_, label_style, {outer_.left_pt + 9, area_.bottom_pt + area_.height_pt / 2},
+               {-1, 0}, y.label, area_.height_pt, 90);
 }
 
 void Plot::DrawMarker(double x, double y, Marker marker, Color color, double size_pt) {
@@ -137,16 +149,31 @@ void Plot::DrawBar(double x_low, double x_high, double y, Color color) {
 }
 
 void Plot::DrawLegend(const std::vector<LegendEntry>& entries) {
-  const TextStyle style{Face::kRegular, kTickType_pt, flow_.look().ink};
-  double x_pt = area_.left_pt + 4;
-  const double y_pt = area_.top_pt() + 9;
+  constexpr double kMark_pt = 18, kGap_pt = 14, kEdge_pt = 4, kSmallest_pt = 6;
+  TextStyle style{Face::kRegular, kTickType_pt, flow_.look().ink};
+  const double first_pt = area_.left_pt + kEdge_pt, right_pt = outer_.right_pt();
+  const auto width_pt = [&](const LegendEntry& entry) {
+    return kMark_pt + pdf_.TextWidth_pt(style, entry.text);
+  };
+  const auto rows = [&] {
+    int count = 1;
+    double x_pt = first_pt;
+    for (const LegendEntry& entry : entries) {
+      if (x_pt > first_pt && x_pt + width_pt(entry) > right_pt) ++count, x_pt = first_pt;
+      x_pt += width_pt(entry) + kGap_pt;
+    }
+    return count;
+  };
+  while (rows() > 2 && style.size_pt > kSmallest_pt) style.size_pt -= 0.25;
+  double x_pt = first_pt, y_pt = area_.top_pt() + (rows() > 1 ? 14.5 : 9);
   for (const LegendEntry& entry : entries) {
+    if (x_pt > first_pt && x_pt + width_pt(entry) > right_pt) x_pt = first_pt, y_pt -= 9;
     if (entry.line)
       pdf_.DrawLine({x_pt, y_pt}, {x_pt + 14, y_pt}, {entry.color, 1.2, entry.dash});
     else
       DrawMarkerShape(pdf_, {x_pt + 7, y_pt}, entry.marker, entry.color, 2.2);
-    pdf_.DrawText(style, {x_pt + 18, y_pt - 2.6}, entry.text);
-    x_pt += 18 + pdf_.TextWidth_pt(style, entry.text) + 14;
+    pdf_.DrawText(style, {x_pt + kMark_pt, y_pt - 2.6}, entry.text);
+    x_pt += width_pt(entry) + kGap_pt;
   }
 }
 

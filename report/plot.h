@@ -43,7 +43,7 @@ class Plot {
     bool line = false;
     Dash dash = Dash::kSolid;  // of the line
   };
-  // In a row above the chart's area.
+  // In a row above the chart's area, or two where one is too narrow.
   void DrawLegend(const std::vector<LegendEntry>& entries);
 
  private:

@@ -1,7 +1,10 @@
 #include "report/report_attachments.h"
 
 #include "base/files.h"
+#include "base/json_file.h"
 #include "report/audit/audit_trail.h"
+#include "report/report_template.h"
+#include "report/result_cells.h"
 
 namespace telestrain {
 namespace {
@@ -27,7 +30,8 @@ TrailHead HeadOf(const std::string& trail) {
   TrailHead head;
   for (std::size_t at = 0; at < trail.size();) {
     const std::size_t end = std::min(trail.find('\n', at), trail.size());
-    const Json line = Json::parse(trail.substr(at, end - at), nullptr, false);
+    const std::string text = trail.substr(at, end - at);
+    const Json line = IsJsonDeeper(text) ? Json() : Json::parse(text, nullptr, false);
     const std::string hash = TextAt(line, "/hash");
     if (!hash.empty()) head = {hash, head.entries + 1};
     at = end + 1;
@@ -66,12 +70,33 @@ Json AttachmentsTable(const std::vector<PdfAttachment>& attachments) {
     if (attachment.name != kTrail) continue;
     const TrailHead head = HeadOf(attachment.bytes);
     if (head.hash.empty()) continue;
-    table["rows"].push_back({"audit head",
-                             "Hash of the last entry; number of entries",
-                             {{"value", head.entries}, {"printed", std::to_string(head.entries)}},
-                             head.hash});
+    // The row below the trail's: where a reader of the report looks for its head.
+    table["rows"].push_back(
+        {"audit head",
+         Phrase("Hash of the last of {{count}} entries", {{"count", std::to_string(head.entries)}}),
+         "", head.hash});
   }
   return table;
+}
+
+Json WithAttachmentsTable(Json blocks, const Json& results) {
+  constexpr const char* kId = "attachments";
+  Json table = {{"type", "table"}, {"table", kId}, {"mono", {"SHA-256"}}};
+  bool is_drawn = false;
+  for (Json& block : blocks) {
+    if (TextAt(block, "/type") != "table" || TextAt(block, "/table") != kId) continue;
+    block["mono"] = table["mono"];
+    block.erase("width_mm");  // a hash that is broken cannot be compared
+    is_drawn = is_drawn || IsWanted(results, block);
+  }
+  if (is_drawn) return blocks;
+  table["show_title"] = false;
+  std::size_t at = 0;
+  while (at < blocks.size() && TextAt(blocks[at], "/type") != "end-mark") ++at;
+  const auto place = [&] { return blocks.begin() + static_cast<std::ptrdiff_t>(at); };
+  blocks.insert(place(), table);
+  blocks.insert(place(), Json{{"type", "heading"}, {"text", "Attached files"}});
+  return blocks;
 }
 
 }  // namespace telestrain

@@ -19,4 +19,8 @@ Result<std::vector<PdfAttachment>> ReportAttachments(const std::filesystem::path
 // entries were cut off behind it, with their number.
 Json AttachmentsTable(const std::vector<PdfAttachment>& attachments);
 
+// A layout's blocks with that table: where the layout draws none from these results, it comes
+// before the end mark, or last. Its hashes stay in one line: 'audit verify' compares them.
+Json WithAttachmentsTable(Json blocks, const Json& results);
+
 }  // namespace telestrain

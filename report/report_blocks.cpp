@@ -15,6 +15,7 @@ namespace {
 
 constexpr Color kWhite{1, 1, 1};
 constexpr double kPixel_pt = 72.0 / 300;  // pictures are printed at 300 dpi
+constexpr double kLogoShare = 0.35;       // of the band's width, at most
 constexpr double kLogoEdge_pt = 5, kLogoGap_pt = 12;
 
 Color PaleAccent() { return ColorOf(0xC9D6E3); }
@@ -23,7 +24,9 @@ Color PaleAccent() { return ColorOf(0xC9D6E3); }
 PageBox LogoBox(const ReportContext& context) {
   if (!context.layout.logo()) return {};
   const RgbImage& logo = *context.layout.logo();
-  const double height_pt = context.layout.LogoHeight_mm() * kPointsPerMm;
+  const double widest_pt = kLogoShare * context.flow.width_pt();
+  const double height_pt = std::min(context.layout.LogoHeight_mm() * kPointsPerMm,
+                                    widest_pt * logo.height_px / logo.width_px);
   return {context.flow.left_pt(), kPageHeight_pt - 16 - height_pt - 2 * kLogoEdge_pt,
           height_pt * logo.width_px / logo.height_px + 2 * kLogoEdge_pt,
           height_pt + 2 * kLogoEdge_pt};
@@ -48,13 +51,16 @@ double TaggedText(PageFlow& flow, const PdfTag& tag, const TextStyle& style, Pag
 // The coloured band over the whole width of the first page.
 Status DrawTitle(const ReportContext& context, const Json& block) {
   PageFlow& flow = context.flow;
-  const TextStyle title{Face::kBold, 20, kWhite}, subtitle{Face::kRegular, 10.5, PaleAccent()};
+  TextStyle title{Face::kBold, 20, kWhite};
+  const TextStyle subtitle{Face::kRegular, 10.5, PaleAccent()};
   const Json& right = ListAt(block, "/right");
   const double right_pt = right.empty() ? 0 : 52 * kPointsPerMm;
   const PageBox logo = LogoBox(context);
   const double x_pt = flow.left_pt() + (logo.width_pt > 0 ? logo.width_pt + kLogoGap_pt : 0);
   const double left_pt = flow.right_pt() - x_pt - right_pt - (right.empty() ? 0 : 12);
   const std::string text = context.Fill(block, "text"), below = context.Fill(block, "subtitle");
+  while (WidestWord_pt(flow.pdf(), title, text) > left_pt && title.size_pt > subtitle.size_pt)
+    title.size_pt -= 0.5;
   double right_height_pt = 0;
   const auto right_style = [&](std::size_t i) {
     return i == 0 ? TextStyle{Face::kBold, 11, kWhite} : TextStyle{Face::kRegular, 9, PaleAccent()};
@@ -106,8 +112,7 @@ Status DrawVerdict(const ReportContext& context, const Json& block) {
         style, {flow.right_pt() - width_pt / 2, top_pt - height_pt / 2 - 0.36 * style.size_pt},
         text, Align::kCenter);
   }
-  DrawFacts(flow, context.Table(TextAt(block, "/table")), 1, flow.width_pt() - width_pt - 14,
-            [](const std::string& name) { return name; });
+  DrawFacts(flow, context.Table(TextAt(block, "/table")), 1, flow.width_pt() - width_pt - 14);
   if (flow.pdf().PageCount() == page) flow.MoveTo(std::min(flow.y_pt(), top_pt - height_pt - 10));
   return {};
 }
@@ -157,13 +162,15 @@ Status DrawKeyValues(const ReportContext& context, const Json& block) {
   PageFlow& flow = context.flow;
   const Json& table = context.Table(TextAt(block, "/table"));
   if (ListAt(table, "/rows").empty()) return {};
+  const int columns = static_cast<int>(NumberAt(block, "/columns").value_or(1));
+  const double title_pt = 16, height_pt = FactsHeight_pt(flow, table, columns, flow.width_pt());
+  const bool whole = height_pt <= kWholeShare * flow.PageBody_pt();
+  flow.Require(title_pt + (whole ? height_pt : 40));
   if (EntryAt(block, "/show_title") != false) {
-    flow.Require(50);
     flow.Paragraph(flow.look().Strong(), TextAt(table, "/title"));
     flow.Advance(2);
   }
-  DrawFacts(flow, table, static_cast<int>(NumberAt(block, "/columns").value_or(1)), flow.width_pt(),
-            [](const std::string& name) { return name; });
+  DrawFacts(flow, table, columns, flow.width_pt());
   return {};
 }
 
@@ -235,17 +242,6 @@ Status DrawEndMark(const ReportContext& context, const Json& block) {
   return {};
 }
 
-// Shrinks a line a little until it fits beside the other one, then shortens it: page 1 has it in
-// full.
-void DrawFrameLine(PageFlow& flow, TextStyle style, double y_pt, const std::string& text,
-                   Align align) {
-  const double room_pt = flow.width_pt() * (align == Align::kLeft ? 0.72 : 0.26);
-  while (style.size_pt > 6.5 && flow.pdf().TextWidth_pt(style, text) > room_pt)
-    style.size_pt -= 0.25;
-  const double x_pt = align == Align::kLeft ? flow.left_pt() : flow.right_pt();
-  flow.pdf().DrawText(style, {x_pt, y_pt}, ShortenedText(flow.pdf(), style, text, room_pt), align);
-}
-
 }  // namespace
 
 Status DrawBlock(const ReportContext& context, const std::string& pointer, const Json& block) {
@@ -259,38 +255,6 @@ Status DrawBlock(const ReportContext& context, const std::string& pointer, const
   TELESTRAIN_CHECK(draw != kDraw.end(), "a checked layout has known blocks only: " + pointer);
   if (!IsWanted(context.results, block)) return {};
   return draw->second(context, block);
-}
-
-void DrawPageFrames(const ReportContext& context) {
-  PageFlow& flow = context.flow;
-  PdfDocument& pdf = flow.pdf();
-  const Look& look = flow.look();
-  Json values = context.values;
-  values["pages"] = pdf.PageCount();
-  const double header_pt = kPageHeight_pt - 15 * kPointsPerMm, footer_pt = 13 * kPointsPerMm;
-  for (int page = 0; page < pdf.PageCount(); ++page) {
-    pdf.SelectPage(page);
-    values["page"] = page + 1;
-    const auto text = [&](const char* key) {
-      return context.layout.Fill(TextAt(context.layout.json(), key), values);
-    };
-    pdf.BeginDecoration(Decoration::kPageFooter);
-    pdf.DrawLine({flow.left_pt(), footer_pt + 12}, {flow.right_pt(), footer_pt + 12},
-                 {look.line, 0.6});
-    DrawFrameLine(flow, {Face::kRegular, 7.5, look.muted}, footer_pt, text("/footer/left"),
-                  Align::kLeft);
-    DrawFrameLine(flow, {Face::kRegular, 7.5, look.muted}, footer_pt, text("/footer/right"),
-                  Align::kRight);
-    pdf.EndDecoration();
-    if (page == 0) continue;  // the title band says it larger
-    const ScopedDecoration header(pdf, Decoration::kPageHeader);
-    DrawFrameLine(flow, {Face::kBold, 8.5, look.accent}, header_pt, text("/header/left"),
-                  Align::kLeft);
-    DrawFrameLine(flow, {Face::kRegular, 8.5, look.muted}, header_pt, text("/header/right"),
-                  Align::kRight);
-    pdf.DrawLine({flow.left_pt(), header_pt - 6}, {flow.right_pt(), header_pt - 6},
-                 {look.accent, 0.8});
-  }
 }
 
 }  // namespace telestrain

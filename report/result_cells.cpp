@@ -76,6 +76,24 @@ void ResultTable::AddRow(std::vector<Json> cells) {
   json_["rows"].push_back(std::move(cells));
 }
 
+void ResultTable::AlignDecimals(const std::vector<double>& expanded_uncertainties,
+                                const std::vector<std::size_t>& columns) {
+  const auto decimals = DecimalsOfColumn(expanded_uncertainties);
+  if (!decimals) return;
+  for (Json& row : json_["rows"])
+    for (const std::size_t column : columns)
+      if (const auto value = NumberAt(row[column], "/value"))
+        row[column]["printed"] = PrintAtDecimals(*value, *decimals);
+}
+
+void ResultTable::AlignDecimals(std::size_t uncertainty, std::vector<std::size_t> columns) {
+  std::vector<double> uncertainties;
+  for (const Json& row : json_["rows"])
+    uncertainties.push_back(NumberAt(row[uncertainty], "/value").value_or(0));
+  columns.push_back(uncertainty);
+  AlignDecimals(uncertainties, columns);
+}
+
 void ResultTable::LinkLastRow(const std::string& section) {
   Json& links = json_["row_links"];
   while (links.size() < json_["rows"].size()) links.push_back(nullptr);

@@ -22,6 +22,9 @@ Json Phrase(const std::string& pattern, const std::map<std::string, Json>& value
 // ("v1", "v2", …; numbers, names of images and views), so that the pattern is the same for all
 // sentences of its kind. A sentence without such a word stays a plain text.
 Json PhraseOfText(const std::string& text);
+// The name of a lens model, "aspect k1 p1 telecentricity, bow of the boards", with its parts said
+// each by itself.
+Json ModelPhrase(const std::string& model);
 // Texts and Phrases one after the other as one Phrase; empty ones are left out. A plain "" when
 // none is left, the text itself when it is the only one.
 Json JoinPhrases(const std::vector<Json>& parts, const std::string& separator = " ");
@@ -64,6 +67,11 @@ class ResultTable {
  public:
   ResultTable(std::string id, std::string title, std::vector<ResultColumn> columns);
   void AddRow(std::vector<Json> cells);  // as many as there are columns
+  // Prints the numbers of these columns anew at one decimal place, that of DecimalsOfColumn.
+  void AlignDecimals(const std::vector<double>& expanded_uncertainties,
+                     const std::vector<std::size_t>& columns);
+  // The same by the uncertainties of the column `uncertainty`, which is aligned, too.
+  void AlignDecimals(std::size_t uncertainty, std::vector<std::size_t> columns);
   // The last row leads to this section of the report: "row_links" has one entry per row, null where
   // none is set.
   void LinkLastRow(const std::string& section);

@@ -18,6 +18,12 @@ struct Measurand {
   const char* unit;
 };
 
+constexpr Measurand kMagnification{"magnification-budget",
+                                   "Uncertainty budget of the magnification",
+                                   "Magnification",
+                                   "/budget",
+                                   "/standard_uncertainty_px_per_mm",
+                                   "px/mm"};
 constexpr Measurand kLength{"ruler-budget",
                             "Uncertainty budget of one length, RMS over the ruler images",
                             "Length of the ruler",
@@ -92,9 +98,25 @@ void AddMeasurand(const Measurand& measurand, const Json& results, const Accepta
   if (!table.empty()) draft.AddTable(std::move(table));
 }
 
+// Of the lens: what the scatter of the corners gives, the rest of it is the certificate's.
+Json BudgetOfMagnification(const Json& calibration) {
+  constexpr const char* kVariance = "/0/0";  // the first parameter of the covariances
+  Json results = Json::object();
+  if (TextAt(calibration, "/covariance/parameters/0") != "magnification_px_per_mm") return results;
+  const auto all = NumberAt(calibration, std::string("/covariance/matrix") + kVariance),
+             noise = NumberAt(calibration, std::string("/covariance/matrix_of_noise") + kVariance);
+  if (!all || !noise || *noise < 0 || *all < *noise) return results;
+  for (const auto& [source, variance] :
+       {std::pair{"cross positions", *noise}, std::pair{"target certificate", *all - *noise}})
+    results["budget"].push_back(
+        {{"source", source}, {"standard_uncertainty_px_per_mm", std::sqrt(variance)}});
+  return results;
+}
+
 }  // namespace
 
-void AddBudgets(const Json& ruler, const Json& strain, ResultsDraft& draft) {
+void AddBudgets(const Json& calibration, const Json& ruler, const Json& strain,
+                ResultsDraft& draft) {
   ResultTable all("budget", "Uncertainty budgets",
                   {{"Measurand", ""},
                    {"Component", ""},
@@ -102,6 +124,7 @@ void AddBudgets(const Json& ruler, const Json& strain, ResultsDraft& draft) {
                    {"Unit", ""},
                    {"Share", "%"},
                    {"Type", ""}});
+  AddMeasurand(kMagnification, BudgetOfMagnification(calibration), draft.acceptance, all, draft);
   AddMeasurand(kLength, ruler, draft.acceptance, all, draft);
   AddMeasurand(kStrain, strain, draft.acceptance, all, draft);
   AddMeasurand(kDiameter, strain, draft.acceptance, all, draft);

@@ -206,7 +206,7 @@ void AddModels(const Json& calibration, ResultsDraft& draft) {
   for (const Json& model : ListAt(calibration, "/model_tests")) {
     const Json& accepted = EntryAt(model, "/accepted");
     const auto p = NumberAt(model, "/p_value");
-    tests.AddRow({TextAt(model, "/added", kNoValue), TextAt(model, "/model", "?"),
+    tests.AddRow({TextAt(model, "/added", kNoValue), ModelPhrase(TextAt(model, "/model", "?")),
                   CountCell(NumberAt(model, "/parameters")), FixedCell(NumberAt(model, "/chi2"), 1),
                   SignificantCell(NumberAt(model, "/f_statistic"), 4),
                   p && *p < kLeastP ? Json("< 1e-12") : SignificantCell(p, 2),

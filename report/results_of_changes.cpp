@@ -26,11 +26,20 @@ struct Tally {
   int judged = 0;
   std::vector<Json> beyond;  // labels
 
+  ChangeCount Counted() const { return {judged, static_cast<int>(beyond.size())}; }
   void Count(const Json& label, const Change& change) {
     if (change.En()) ++judged;
     if (change.IsBeyond()) beyond.push_back(label);
   }
 };
+
+// An En far beyond 1 says no more than that it is.
+Json EnCell(const Change& change) {
+  constexpr double kMostPrinted = 100;
+  Json cell = FixedCell(change.En(), 2);
+  if (change.En().value_or(0) > kMostPrinted) cell["printed"] = "> 100";
+  return cell;
+}
 
 // The earlier U as it would be with the coverage factor of now.
 std::optional<double> EarlierU(const Json& before, double coverage_factor) {
@@ -61,7 +70,7 @@ void AddRow(const Json& before, const Quantity& now, const Change& change, doubl
                 PrintedCell(before, "/expanded_uncertainty", "/printed_uncertainty"),
                 PrintedCell(after, "/value", "/printed"),
                 PrintedCell(after, "/expanded_uncertainty", "/printed_uncertainty"), cells.value,
-                cells.uncertainty, FixedCell(change.En(), 2), now.unit, change.Words()});
+                cells.uncertainty, EnCell(change), now.unit, change.Words()});
   table.LinkLastRow(now.section);
 }
 
@@ -88,7 +97,7 @@ void AddEarlierFacts(const EarlierResults& earlier, ResultsDraft& draft) {
   draft.AddTable(std::move(table));
 }
 
-void AddQuantityChanges(const EarlierResults& earlier, ResultsDraft& draft) {
+ChangeCount AddQuantityChanges(const EarlierResults& earlier, ResultsDraft& draft) {
   ResultTable table("changes", "Changes since the earlier report",
                     {{"Quantity", ""},
                      {"Earlier", ""},
@@ -120,17 +129,49 @@ void AddQuantityChanges(const EarlierResults& earlier, ResultsDraft& draft) {
       "such as one certificate, is counted twice, which hides small changes rather than feigning "
       "them. A quantity without U is not judged.";
   if (!table.empty()) draft.AddTable(std::move(table));
+  return tally.Counted();
+}
+
+// The earlier report by its number, else its file, and its date.
+Json NameOf(const EarlierResults& earlier) {
+  const std::string number =
+      TextAt(earlier.results, "/document/number",
+             TextAt(earlier.results, "/document/report_number", earlier.file).c_str());
+  const std::string date = TextAt(earlier.results, "/document/issued",
+                                  TextAt(earlier.results, "/document/date").c_str());
+  if (date.empty()) return number;
+  return Phrase("{{number}} of {{date}}", {{"number", number}, {"date", date}});
 }
 
 }  // namespace
 
-void AddChanges(const EarlierResults& earlier, ResultsDraft& draft) {
+ChangeCount AddChanges(const EarlierResults& earlier, ResultsDraft& draft) {
   AddEarlierFacts(earlier, draft);
-  AddQuantityChanges(earlier, draft);
+  return AddQuantityChanges(earlier, draft);
 }
 
-void AddCalibrationChanges(const std::vector<CalibrationChange>& changes, ResultsDraft& draft) {
-  if (changes.empty()) return;
+void AddComparedWith(const EarlierResults& earlier, const ChangeCount& quantities,
+                     const ChangeCount& calibration, ResultsDraft& draft) {
+  const auto sentence = [&](const char* pattern, const ChangeCount& count) {
+    return Phrase(pattern, {{"report", NameOf(earlier)},
+                            {"changed", std::to_string(count.changed)},
+                            {"judged", std::to_string(count.judged)}});
+  };
+  std::vector<Json> sentences{
+      sentence("Compared with {{report}}: {{changed}} of {{judged}} values changed by more than "
+               "their uncertainty.",
+               quantities)};
+  if (calibration.judged > 0)
+    sentences.push_back(
+        sentence("In the instrument {{changed}} of {{judged}} values moved by more "
+                 "than their uncertainty.",
+                 calibration));
+  draft.sentences["compared_with"] = JoinPhrases(sentences);
+}
+
+ChangeCount AddCalibrationChanges(const std::vector<CalibrationChange>& changes,
+                                  ResultsDraft& draft) {
+  if (changes.empty()) return {};
   ResultTable table(
       "changes-calibration", "What moved in the instrument",
       {{"Quantity", ""}, {"Change", ""}, {"U", ""}, {"En", ""}, {"Unit", ""}, {"Judgement", ""}});
@@ -138,8 +179,8 @@ void AddCalibrationChanges(const std::vector<CalibrationChange>& changes, Result
   for (const CalibrationChange& moved : changes) {
     const Change change{moved.value, draft.acceptance.Expanded(moved.standard_uncertainty)};
     const ResultCellPair cells = ResultCells(change.value, change.expanded_uncertainty, 2);
-    table.AddRow({moved.quantity, cells.value, cells.uncertainty, FixedCell(change.En(), 2),
-                  moved.unit, change.Words()});
+    table.AddRow({moved.quantity, cells.value, cells.uncertainty, EnCell(change), moved.unit,
+                  change.Words()});
     tally.Count(moved.quantity, change);
   }
   draft.sentences["changes_calibration"] =
@@ -151,6 +192,7 @@ void AddCalibrationChanges(const std::vector<CalibrationChange>& changes, Result
                        "Calibration: of the {{judged}} changes with an uncertainty {{changed}} are "
                        "larger than U: {{names}}.");
   draft.AddTable(std::move(table));
+  return tally.Counted();
 }
 
 }  // namespace telestrain

@@ -61,7 +61,7 @@ void AddImageScale(const Json& calibration, const Acceptance& acceptance, Result
 void AddSettings(const Json& strain, ResultTable& table) {
   const auto number = [&](const char* pointer) { return ExactCell(NumberAt(strain, pointer)); };
   table.AddFact("Subset", number("/options/subset_px"), "px");
-  table.AddFact("Step", number("/options/step_px"), "px");
+  table.AddFact("Step of the grid", number("/options/step_px"), "px");
   table.AddFact("Shape function", TextAt(strain, "/options/shape_function", kNoValue));
   table.AddFact("Interpolant", TextAt(strain, "/options/interpolant", kNoValue));
   table.AddFact("Criterion", TextAt(strain, "/options/criterion", kNoValue));

@@ -7,8 +7,8 @@
 namespace telestrain {
 namespace {
 
-// The differences are of the order of 1e-10: in this unit they read well.
-constexpr double kUnitsPerOne = 1e9;
+// In these units the limits are about one, and what has none reads well.
+constexpr double kLimitedPerOne = 1e6, kFreePerOne = 1e9;
 
 struct Check {
   const char* id;
@@ -16,28 +16,33 @@ struct Check {
   const char* value;  // JSON pointers into independent_optimum
   const char* limit;
   const char* unit;
+  double units_per_one;
   bool always_in_summary;  // the others only when they did not pass
 };
 
 constexpr std::array<Check, 4> kChecks{
     {{"mrcal_optimum_difference", "Largest difference to mrcal's own optimum",
-      "/max_residual_difference_px", "/limits/residual_difference_px", "10⁻⁹ px", true},
+      "/max_residual_difference_px", "/limits/residual_difference_px", "10⁻⁶ px", kLimitedPerOne,
+      true},
      {"mrcal_magnification_difference", "Magnifications at mrcal's own optimum, relative",
-      "/max_magnification_difference", "/limits/magnification_difference", "10⁻⁹", false},
+      "/max_magnification_difference", "/limits/magnification_difference", "10⁻⁹", kFreePerOne,
+      false},
      {"mrcal_rotation_difference", "Rotations between the views at mrcal's own optimum",
-      "/max_rotation_difference_rad", "/limits/rotation_difference_rad", "10⁻⁹ rad", false},
+      "/max_rotation_difference_rad", "/limits/rotation_difference_rad", "10⁻⁹ rad", kFreePerOne,
+      false},
      {"mrcal_projection_difference", "Largest difference of mrcal's projection at our solution",
-      "/evaluated_max_residual_difference_px", "/limits/residual_difference_px", "10⁻⁹ px", true}}};
+      "/evaluated_max_residual_difference_px", "/limits/residual_difference_px", "10⁻⁶ px",
+      kLimitedPerOne, true}}};
 
-std::optional<double> ScaledAt(const Json& json, const char* pointer) {
+std::optional<double> ScaledAt(const Json& json, const char* pointer, double units_per_one) {
   const auto value = NumberAt(json, pointer);
-  return value ? std::optional<double>(kUnitsPerOne * *value) : std::nullopt;
+  return value ? std::optional<double>(units_per_one * *value) : std::nullopt;
 }
 
 // Places that show two significant digits.
 int DecimalsOf(double value) {
   if (value <= 0) return 2;
-  return std::clamp(1 - static_cast<int>(std::floor(std::log10(value))), 0, 6);
+  return std::clamp(1 - static_cast<int>(std::floor(std::log10(value))), 0, 9);
 }
 
 Quantity QuantityOf(const Check& check, const Json& optimum, const Acceptance& acceptance) {
@@ -48,8 +53,8 @@ Quantity QuantityOf(const Check& check, const Json& optimum, const Acceptance& a
   quantity.unit = check.unit;
   quantity.limit_kind = "max";
   quantity.is_check = true;
-  quantity.value = ScaledAt(optimum, check.value);
-  quantity.limit = ScaledAt(optimum, check.limit);
+  quantity.value = ScaledAt(optimum, check.value, check.units_per_one);
+  quantity.limit = ScaledAt(optimum, check.limit, check.units_per_one);
   quantity.decimals = DecimalsOf(quantity.value.value_or(0));
   quantity.verdict = acceptance.DecideQuantity(quantity);
   quantity.in_summary = check.always_in_summary || quantity.verdict == Verdict::kFail;
@@ -90,15 +95,15 @@ std::string YesOrNo(const Json& json) {
 }
 
 void AddCheckFacts(const Json& optimum, ResultsDraft& draft) {
-  constexpr int kRmsDecimals = 12;  // shows where the two differ
+  constexpr int kDigits = 4;  // by how much the two differ says the table above
   ResultTable table = FactTable("mrcal-facts", "What was compared");
   table.AddFact("Model of the optimum", TextAt(optimum, "/model", kNoValue));
   table.AddFact("RMS at our optimum of this model",
-                FixedCell(NumberAt(optimum, "/rms_px"), kRmsDecimals), "px");
+                SignificantCell(NumberAt(optimum, "/rms_px"), kDigits), "px");
   table.AddFact("RMS at mrcal's optimum",
-                FixedCell(NumberAt(optimum, "/mrcal_rms_px"), kRmsDecimals), "px");
-  table.AddFact("Telecentricity left out",
-                SignificantCell(NumberAt(optimum, "/telecentricity_left_out_per_mm"), 2), "1/mm");
+                SignificantCell(NumberAt(optimum, "/mrcal_rms_px"), kDigits), "px");
+  const double left_out = NumberAt(optimum, "/telecentricity_left_out_per_mm").value_or(0);
+  if (left_out != 0) table.AddFact("Telecentricity left out", SignificantCell(left_out, 2), "1/mm");
   table.AddFact("Projection compared at", TextAt(optimum, "/evaluated", kNoValue));
   table.AddFact("mrcal converged", YesOrNo(EntryAt(optimum, "/mrcal_converged")));
   table.AddFact("Images", CountCell(NumberAt(optimum, "/images")));

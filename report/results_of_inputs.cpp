@@ -1,27 +1,10 @@
 #include <cctype>
 #include <map>
-#include <set>
 
 #include "report/results_parts.h"
 
 namespace telestrain {
 namespace {
-
-// Shown in the title band, so not repeated below it.
-bool StandsInTitle(const std::string& key) {
-  static const std::set<std::string> kKeys = {"title", "number", "report_number", "revision"};
-  return kKeys.count(key) > 0;
-}
-
-void AddDocument(const Json& inputs, ResultsDraft& draft) {
-  ResultTable table = FactTable("document", "Document");
-  const Json& document = EntryAt(inputs, "/document");
-  if (document.is_object())
-    for (const auto& [key, value] : document.items())
-      if (!StandsInTitle(key))
-        table.AddFact(KeyAsLabel(key), value.is_string() ? value : Json(value.dump()));
-  draft.AddTable(std::move(table));
-}
 
 void AddArtefacts(const Json& inputs, ResultsDraft& draft) {
   ResultTable table = FactTable("artefacts", "Instrument and artefacts");
@@ -106,7 +89,6 @@ std::string KeyAsLabel(std::string key) {
 }
 
 void AddInputs(const Json& inputs, const Json& strain, ResultsDraft& draft) {
-  AddDocument(inputs, draft);
   AddArtefacts(inputs, draft);
   AddSoftware(inputs, draft);
   AddFiles(inputs, strain, draft);

@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <array>
 #include <set>
+#include <string_view>
 
 #include "base/numbers.h"
 #include "report/results_parts.h"
@@ -69,6 +71,23 @@ void AddItemTable(const Json& document, ResultsDraft& draft) {
   if (!table.empty()) draft.AddTable(std::move(table));
 }
 
+// The first page's choice; everything stands in the table "item".
+void AddDocument(const Json& document, ResultsDraft& draft) {
+  ResultTable table = FactTable("document", "Document");
+  bool has_date = false;
+  for (const std::string_view label : {"Customer", "Item", "Serial numbers", "Date of the test",
+                                       "Date of issue", "Place of the test", "Operator"}) {
+    const auto entry = std::find_if(kEntries.begin(), kEntries.end(),
+                                    [&](const ItemEntry& e) { return e.label == label; });
+    const char* key = GivenKey(*entry, document);
+    const bool is_date = label.starts_with("Date");
+    if (key == nullptr || (is_date && has_date)) continue;
+    has_date = has_date || is_date;
+    table.AddFact(entry->label, TextAt(document, std::string("/") + key));
+  }
+  draft.AddTable(std::move(table));
+}
+
 Json NotStated(const Json& document) {
   std::vector<Json> labels;
   for (const ItemEntry& entry : kEntries)
@@ -111,11 +130,11 @@ void AddItem(const Json& inputs, ResultsDraft& draft) {
   const Json& given = EntryAt(inputs, "/document");
   const Json& document = given.is_object() ? given : kNothing;
   AddItemTable(document, draft);
+  AddDocument(document, draft);
   draft.sentences["not_stated"] = NotStated(document);
   ResultTable table("statements", "Statements", {{"On", ""}, {"Statement", ""}});
   table.AddRow({"Scope", "The results relate only to the items tested."});
   table.AddRow({"Uncertainty", UncertaintySentence(draft.acceptance)});
-  table.AddRow({"Decision rule", RuleSentence(draft.acceptance)});
   table.AddRow({"Reproduction", "This report may not be reproduced except in full."});
   const char* authoriser = GivenKey(kEntries.back(), document);
   table.AddRow({"Authorised by", authoriser ? Json(TextAt(document, std::string("/") + authoriser))

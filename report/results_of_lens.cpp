@@ -74,7 +74,8 @@ void AddLens(const Json& calibration, ResultsDraft& draft) {
   }
   table.AddFact("Object side of one pixel",
                 FixedCell(NumberAt(calibration, "/lens/object_side_um_per_px"), 4), "µm");
-  table.AddFact("Estimated beside the magnification", TextAt(calibration, "/lens/model", kNoValue));
+  table.AddFact("Estimated beside the magnification",
+                ModelPhrase(TextAt(calibration, "/lens/model", kNoValue)));
   AddDistortion(calibration, draft.acceptance, table);
   AddRareTerms(calibration, table);
   table.AddFact("Distortion centre u", FixedCell(NumberAt(calibration, "/lens/center_px/0"), 1),

@@ -1,4 +1,5 @@
 #include "report/results_parts.h"
+#include "report/rounding.h"
 
 namespace telestrain {
 namespace {
@@ -6,6 +7,22 @@ namespace {
 // The value with its U; `decimals` where there is none.
 ResultCellPair EstimateCells(const Json& json, int decimals) {
   return ResultCells(NumberAt(json, "/value"), NumberAt(json, "/expanded_uncertainty"), decimals);
+}
+
+// As EstimateCells, with up to two more digits while the value would print as zero: next to its
+// effect that reads like a contradiction.
+ResultCellPair TrendCells(const Json& json) {
+  constexpr int kMoreDigits = 2;
+  ResultCellPair cells = EstimateCells(json, 3);
+  const auto value = NumberAt(json, "/value"), u = NumberAt(json, "/expanded_uncertainty");
+  const auto decimals = u ? DecimalsOfColumn({*u}) : std::nullopt;
+  for (int more = 1; decimals && value && *value != 0 && more <= kMoreDigits; ++more) {
+    const std::string printed = TextAt(cells.value, "/printed");
+    if (printed.find_first_of("123456789") != std::string::npos) break;
+    cells.value["printed"] = PrintAtDecimals(*value, *decimals + more);
+    cells.uncertainty["printed"] = PrintAtDecimals(*u, *decimals + more);
+  }
+  return cells;
 }
 
 void AddTrends(const Json& acceptance, ResultsDraft& draft) {
@@ -19,8 +36,8 @@ void AddTrends(const Json& acceptance, ResultsDraft& draft) {
                      {"U of the effect", "µm"},
                      {"Significant", ""}});
   for (const Json& trend : ListAt(acceptance, "/trends")) {
-    const ResultCellPair slope = EstimateCells(EntryAt(trend, "/slope"), 3);
-    const ResultCellPair effect = EstimateCells(EntryAt(trend, "/effect_um"), 3);
+    const ResultCellPair slope = TrendCells(EntryAt(trend, "/slope"));
+    const ResultCellPair effect = TrendCells(EntryAt(trend, "/effect_um"));
     table.AddRow({TextAt(trend, "/on", "?"), slope.value, slope.uncertainty,
                   TextAt(trend, "/unit", "?"), FixedCell(NumberAt(trend, "/range"), 2),
                   effect.value, effect.uncertainty,

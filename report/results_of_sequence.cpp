@@ -81,6 +81,7 @@ void AddCycles(const Json& sequence, ResultsDraft& draft) {
                   intercept.value, intercept.uncertainty, loop.value, loop.uncertainty, zero.value,
                   zero.uncertainty});
   }
+  for (std::size_t uncertainty : {3, 5, 7, 9}) table.AlignDecimals(uncertainty, {uncertainty - 1});
   if (!table.empty()) draft.AddTable(std::move(table));
 }
 

@@ -19,12 +19,18 @@ std::optional<double> RejectedPoints(const Json& state) {
   return count;
 }
 
-// The local strain of a patch, rounded by its own U, which is not printed.
-Json LocalCell(const Json& state, const char* value, const char* patch,
-               const Acceptance& acceptance) {
-  const auto sigma =
-      NumberAt(state, std::string("/local_standard_uncertainty_microstrain") + patch);
-  return ResultCells(NumberAt(state, value), acceptance.Expanded(sigma), 1).value;
+// One decimal place per column. The U of the local strains is not printed.
+void AlignStates(const Json& strain, const Acceptance& acceptance, ResultTable& table) {
+  enum Column : std::size_t { kLong = 3, kLongU, kLocalA, kLocalB, kGauges, kGaugesU, kError = 10 };
+  std::vector<double> local;
+  for (const Json& state : ListAt(strain, "/states"))
+    for (const char* patch : {"/0", "/1"})
+      if (const auto expanded = acceptance.Expanded(
+              NumberAt(state, std::string("/local_standard_uncertainty_microstrain") + patch)))
+        local.push_back(*expanded);
+  table.AlignDecimals(kLongU, {kLong});
+  table.AlignDecimals(local, {kLocalA, kLocalB});
+  table.AlignDecimals(kGaugesU, {kGauges, kError});
 }
 
 void AddStates(const Json& strain, ResultsDraft& draft) {
@@ -56,12 +62,13 @@ void AddStates(const Json& strain, ResultsDraft& draft) {
     const ResultCellPair camera = ResultCells(axial, expanded, 1);
     table.AddRow({TextAt(state, "/image", "?"), TextAt(state, "/cycle", kNoValue),
                   TextAt(state, "/step", kNoValue), camera.value, camera.uncertainty,
-                  LocalCell(state, "/local_a_microstrain", "/0", draft.acceptance),
-                  LocalCell(state, "/local_b_microstrain", "/1", draft.acceptance), at_gauges.value,
+                  FixedCell(NumberAt(state, "/local_a_microstrain"), 1),
+                  FixedCell(NumberAt(state, "/local_b_microstrain"), 1), at_gauges.value,
                   at_gauges.uncertainty, FixedCell(gauge, 1),
                   ResultCells(Difference(compared, gauge), compared_expanded, 1).value,
                   CountCell(NumberAt(state, "/points_used")), CountCell(RejectedPoints(state))});
   }
+  AlignStates(strain, draft.acceptance, table);
   draft.AddTable(std::move(table));
 }
 
@@ -91,6 +98,7 @@ void AddBeam(const Json& strain, ResultsDraft& draft) {
     }
     table.AddRow(cells);
   }
+  for (std::size_t uncertainty : {2, 4, 6, 8}) table.AlignDecimals(uncertainty, {uncertainty - 1});
   if (!table.empty()) draft.AddTable(std::move(table));
 }
 
@@ -165,8 +173,11 @@ void AddComparison(const Json& strain, ResultsDraft& draft) {
                 ResultCells(NumberAt(comparison, "/mean_error_microstrain"), bias_u, 1).value,
                 "µε");
   table.AddFact("Largest error", fixed("/max_abs_error_microstrain", 1), "µε");
-  table.AddFact("Slope of the regression", fixed("/slope", 4));
-  table.AddFact("Intercept of the regression", fixed("/intercept_microstrain", 1), "µε");
+  // That of the sequence, with errors in both, says the same better.
+  if (!NumberAt(strain, "/sequence/regression/slope/value")) {
+    table.AddFact("Slope of the regression", fixed("/slope", 4));
+    table.AddFact("Intercept of the regression", fixed("/intercept_microstrain", 1), "µε");
+  }
   draft.AddTable(std::move(table));
 }
 

@@ -10,12 +10,21 @@ namespace telestrain {
 // and says in `draft.measured` whether its section was measured; a null `json` means that the file
 // does not exist. Pure functions of their arguments.
 
+// Of the changes with an uncertainty, how many are larger than U.
+struct ChangeCount {
+  int judged = 0;
+  int changed = 0;
+};
 // After all quantities: facts of the earlier report (table "earlier"), every quantity that both
 // have with its change, U of it (root sum of squares of both) and En number (table "changes"), and
 // the sentences "changes" and "changes_note".
-void AddChanges(const EarlierResults& earlier, ResultsDraft& draft);
+ChangeCount AddChanges(const EarlierResults& earlier, ResultsDraft& draft);
 // What moved in the instrument: table "changes-calibration", sentence "changes_calibration".
-void AddCalibrationChanges(const std::vector<CalibrationChange>& changes, ResultsDraft& draft);
+ChangeCount AddCalibrationChanges(const std::vector<CalibrationChange>& changes,
+                                  ResultsDraft& draft);
+// The sentence "compared_with" for the first page.
+void AddComparedWith(const EarlierResults& earlier, const ChangeCount& quantities,
+                     const ChangeCount& calibration, ResultsDraft& draft);
 // What ISO/IEC 17025 (7.8.2 to 7.8.6) wants of a report and the session's [document] says: the
 // table "item", the table "statements" (uncertainty, what the results relate to, decision rule,
 // authoriser), and the sentence "not_stated" of what a complete certificate would have too.
@@ -42,9 +51,10 @@ void AddStrain(const Json& strain, ResultsDraft& draft);
 // How the strain was correlated: settings, the iDICs reporting table, the noise floors.
 void AddCorrelation(const Json& inputs, const Json& calibration, const Json& strain,
                     ResultsDraft& draft);
-// The uncertainty budgets of a length, a strain and the pipe's diameter: a table each and one of
-// all, with shares, type, the combined and the expanded uncertainty.
-void AddBudgets(const Json& ruler, const Json& strain, ResultsDraft& draft);
+// The uncertainty budgets of the magnification, a length, a strain and the pipe's diameter: a table
+// each and one of all, with shares, type, the combined and the expanded uncertainty.
+void AddBudgets(const Json& calibration, const Json& ruler, const Json& strain,
+                ResultsDraft& draft);
 
 // What strain.json says of the sequence: regression, cycles, drift, noise floors, classes, gauges.
 void AddSequence(const Json& strain, ResultsDraft& draft);

@@ -31,18 +31,29 @@ int DecimalsFor(double value, int digits) {
   return digits - 1 - DecimalExponent(RoundToDecimals(value, first));
 }
 
-std::string PrintRounded(double value, int decimals) {
+}  // namespace
+
+std::string PrintAtDecimals(double value, int decimals) {
   const double rounded = decimals < 0 ? RoundToDecimals(value, decimals) : value;
   return FormatFixed(rounded, std::clamp(decimals, 0, kMostDecimals));
 }
 
-}  // namespace
+std::optional<int> DecimalsOfColumn(const std::vector<double>& expanded_uncertainties) {
+  std::vector<int> decimals;
+  for (const double uncertainty : expanded_uncertainties)
+    if (std::isfinite(uncertainty) && uncertainty > 0)
+      decimals.push_back(DecimalsFor(uncertainty, kUncertaintyDigits));
+  if (decimals.empty()) return {};
+  const auto median = decimals.begin() + static_cast<std::ptrdiff_t>(decimals.size() / 2);
+  std::nth_element(decimals.begin(), median, decimals.end());
+  return *median;
+}
 
 PrintedResult PrintWithUncertainty(double value, double expanded_uncertainty) {
   TELESTRAIN_CHECK(std::isfinite(expanded_uncertainty) && expanded_uncertainty > 0,
                    "an uncertainty is finite and positive");
   const int decimals = DecimalsFor(expanded_uncertainty, kUncertaintyDigits);
-  return {PrintRounded(value, decimals), PrintRounded(expanded_uncertainty, decimals)};
+  return {PrintAtDecimals(value, decimals), PrintAtDecimals(expanded_uncertainty, decimals)};
 }
 
 std::string PrintUncertainty(double uncertainty) {
@@ -52,7 +63,7 @@ std::string PrintUncertainty(double uncertainty) {
 std::string PrintSignificant(double value, int digits) {
   if (value == 0) return FormatFixed(0, digits - 1);
   const int exponent = DecimalExponent(value);
-  if (exponent >= -4 && exponent < 7) return PrintRounded(value, DecimalsFor(value, digits));
+  if (exponent >= -4 && exponent < 7) return PrintAtDecimals(value, DecimalsFor(value, digits));
   char buffer[64];
   const auto format = std::chars_format::scientific;
   const auto end = std::to_chars(buffer, buffer + sizeof buffer, value, format, digits - 1).ptr;

@@ -169,8 +169,7 @@ Status StudyDrawing::DrawNotes() {
 Status StudyDrawing::DrawSettings() {
   if (ListAt(study_.json, "/settings").empty()) return {};
   TELESTRAIN_RETURN_IF_ERROR(Heading("Settings"));
-  DrawFacts(flow_, SettingsTable(study_.json), 2, flow_.width_pt(),
-            [](const std::string& name) { return name; });
+  DrawFacts(flow_, SettingsTable(study_.json), 2, flow_.width_pt());
   return {};
 }
 

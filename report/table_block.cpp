@@ -251,9 +251,14 @@ void TableDrawing::Draw() {
   const RowFrame frame = FrameOfRows();
   // The header never stands alone at the foot of a page.
   double start_pt = HeaderHeight_pt() + (style_.show_title ? 16 : 0);
-  for (std::size_t i = 0; i < std::min<std::size_t>(rows.size(), 3); ++i)
-    start_pt += RowHeight_pt(RowCells(rows[i]), frame);
-  flow_.Require(std::min(start_pt, flow_.PageBody_pt()));
+  double whole_pt = start_pt;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const double row_pt = RowHeight_pt(RowCells(rows[i]), frame);
+    whole_pt += row_pt;
+    if (i < 3) start_pt += row_pt;
+  }
+  const bool whole = whole_pt <= kWholeShare * flow_.PageBody_pt();
+  flow_.Require(std::min(whole ? whole_pt : start_pt, flow_.PageBody_pt()));
   const ScopedTag tag(pdf_, PdfTag{"Table"});
   DrawTitle(false);
   DrawHeader(false);

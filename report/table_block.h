@@ -9,6 +9,9 @@
 
 namespace telestrain {
 
+// A table of at most this share of a page is not broken over pages.
+constexpr double kWholeShare = 0.35;
+
 struct TableStyle {
   double width_mm = 0;            // 0: the whole width
   std::vector<std::string> mono;  // names of the columns set in the monospaced face
@@ -25,8 +28,8 @@ void DrawTable(PageFlow& flow, const Json& table, const TableStyle& style);
 
 // Draws a table of (name, value, unit) rows as lines "name   value unit", in one or two columns
 // side by side of `width_pt` in all.
-void DrawFacts(PageFlow& flow, const Json& table, int columns, double width_pt,
-               const std::function<std::string(const std::string&)>& translate);
+void DrawFacts(PageFlow& flow, const Json& table, int columns, double width_pt);
+double FactsHeight_pt(PageFlow& flow, const Json& table, int columns, double width_pt);
 
 // What the PDF prints for a cell.
 std::string CellText(const Json& cell);

@@ -5,7 +5,9 @@
 
 #include "base/check.h"
 #include "base/files.h"
+#include "base/json_file.h"
 #include "report/built_in_files.h"
+#include "report/json_schema.h"
 
 namespace telestrain {
 namespace {
@@ -28,6 +30,42 @@ std::string NameIn(const std::string& folder, const std::string& file) {
       file.substr(begin.size(), file.size() - begin.size() - std::string(kSuffix).size());
   return name.find('/') == std::string::npos ? name : "";
 }
+
+// Finds the first key that an object holds twice: a parser keeps the last one silently.
+class RepeatedKey {
+ public:
+  void Read(Json::parse_event_t event, const Json& parsed) {
+    using Event = Json::parse_event_t;
+    if (event == Event::key) {
+      const std::string key = parsed.get<std::string>();
+      open_.back().step = key;
+      if (!open_.back().keys.insert(key).second && pointer_.empty()) pointer_ = Here();
+      return;
+    }
+    if (event == Event::object_end || event == Event::array_end) open_.pop_back();
+    if (event == Event::object_start || event == Event::array_start)
+      open_.push_back({event == Event::array_start, 0, "0", {}});
+    else if (!open_.empty() && open_.back().is_list)
+      open_.back().step = std::to_string(++open_.back().index);
+  }
+  const std::string& pointer() const { return pointer_; }  // empty: there is none
+
+ private:
+  struct Level {
+    bool is_list = false;
+    std::size_t index = 0;
+    std::string step;
+    std::set<std::string> keys;
+  };
+  std::string Here() const {
+    std::string pointer;
+    for (const Level& level : open_) pointer += "/" + PointerStep(level.step);
+    return pointer;
+  }
+
+  std::vector<Level> open_;
+  std::string pointer_;
+};
 
 }  // namespace
 
@@ -77,8 +115,18 @@ std::vector<std::string> TemplateFolder::Names(const std::string& folder) const 
 }
 
 Result<Json> ParseTemplate(const TemplateFile& file) {
+  if (IsJsonDeeper(file.text))
+    return BadInput(file.where + ": is nested deeper than " + std::to_string(kDeepestJson) +
+                    " brackets");
   try {
-    return Json::parse(file.text);
+    RepeatedKey repeated;
+    Json json = Json::parse(file.text, [&](int, Json::parse_event_t event, const Json& parsed) {
+      repeated.Read(event, parsed);
+      return true;
+    });
+    if (!repeated.pointer().empty())
+      return BadInput(file.where + ": " + repeated.pointer() + ": the key stands there twice");
+    return json;
   } catch (const nlohmann::json::exception& e) {
     return BadInput(file.where + ": is not valid JSON: " + e.what());
   }

@@ -38,7 +38,8 @@ class TemplateFolder {
   std::filesystem::path own_;
 };
 
-// The JSON in it. Fails (kBadInput) with its place and where the syntax is wrong.
+// The JSON in it. Fails (kBadInput) with its place and where the syntax is wrong, or with the JSON
+// pointer of a key that an object holds twice.
 Result<Json> ParseTemplate(const TemplateFile& file);
 
 // A schema of templates/ by its file name; it is built in and right.

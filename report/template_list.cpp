@@ -9,14 +9,21 @@
 namespace telestrain {
 namespace {
 
-Result<std::vector<NamedTemplate>> Listed(const TemplateFolder& folder, const std::string& in,
-                                          const char* title) {
+Result<Json> ReadJsonOf(const TemplateFolder& folder, const std::string& name) {
+  TELESTRAIN_ASSIGN_OR_RETURN(const TemplateFile file, folder.Read(name));
+  return ParseTemplate(file);
+}
+
+// A file that cannot be read does not hide the others.
+std::vector<NamedTemplate> Listed(const TemplateFolder& folder, const std::string& in,
+                                  const char* title) {
   std::vector<NamedTemplate> list;
   for (const std::string& name : folder.Names(in)) {
-    TELESTRAIN_ASSIGN_OR_RETURN(const TemplateFile file,
-                                folder.Read((in.empty() ? "" : in + "/") + name + ".json"));
-    TELESTRAIN_ASSIGN_OR_RETURN(const Json json, ParseTemplate(file));
-    list.push_back({name, TextAt(json, title)});
+    const auto json = ReadJsonOf(folder, (in.empty() ? "" : in + "/") + name + ".json");
+    if (json)
+      list.push_back({name, TextAt(*json, title), ""});
+    else
+      list.push_back({name, "", json.error().message});
   }
   return list;
 }
@@ -26,11 +33,11 @@ Result<std::vector<NamedTemplate>> Listed(const TemplateFolder& folder, const st
 Result<TemplateList> ListTemplates(const std::filesystem::path& folder) {
   TELESTRAIN_ASSIGN_OR_RETURN(const TemplateFolder templates, TemplateFolder::Open(folder));
   TemplateList list;
-  TELESTRAIN_ASSIGN_OR_RETURN(list.layouts, Listed(templates, "", "/title"));
-  TELESTRAIN_ASSIGN_OR_RETURN(list.languages, Listed(templates, "texts", "/name"));
+  list.layouts = Listed(templates, "", "/title");
+  list.languages = Listed(templates, "texts", "/name");
   const auto is_english = [](const NamedTemplate& language) { return language.name == "en"; };
   if (std::none_of(list.languages.begin(), list.languages.end(), is_english))
-    list.languages.push_back({"en", "English"});
+    list.languages.push_back({"en", "English", ""});
   std::sort(list.languages.begin(), list.languages.end(),
             [](const NamedTemplate& a, const NamedTemplate& b) { return a.name < b.name; });
   return list;

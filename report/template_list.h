@@ -9,12 +9,13 @@ namespace telestrain {
 
 struct NamedTemplate {
   std::string name, title;  // "acceptance", "Acceptance report"; "de", "Deutsch"
+  std::string fault;        // why the file cannot be read; empty: it can
 };
 struct TemplateList {
   std::vector<NamedTemplate> layouts, languages;
 };
 // The layouts and languages that a report can have: built-in ones and those of the user's folder,
-// sorted by name. Fails (kBadInput) for a malformed file of the folder.
+// sorted by name; a malformed file with its fault. Fails (kBadInput) when `folder` is none.
 Result<TemplateList> ListTemplates(const std::filesystem::path& folder);
 
 struct LayoutScope {

@@ -44,6 +44,32 @@ std::optional<std::string> TextFault(const std::string& text) {
   return pattern.error_message();
 }
 
+std::vector<TextName> PlacesInText(const std::string& text) {
+  std::vector<TextName> places;
+  std::vector<std::string> open_sections;
+  std::set<std::string> guards;
+  for (std::size_t open = text.find("{{"); open != std::string::npos;
+       open = text.find("{{", open + 2)) {
+    const std::string tag = text.substr(open + 2, text.find("}}", open) - open - 2);
+    const std::string name = *NamesInText("{{" + tag + "}}").begin();
+    const char kind = tag.empty() ? ' ' : tag[0];
+    if (kind == '!') continue;
+    if (kind == '/') {
+      if (!open_sections.empty()) open_sections.pop_back();
+      continue;
+    }
+    bool relative = false;
+    for (const std::string& section : open_sections)
+      relative = relative || section.find('.') == std::string::npos;
+    places.push_back({name, !open_sections.empty(), relative});
+    if (kind != '#' && kind != '^') continue;
+    open_sections.push_back(name);
+    guards.insert(name);
+  }
+  for (TextName& place : places) place.guarded = place.guarded || guards.count(place.name) > 0;
+  return places;
+}
+
 std::set<std::string> NamesInText(const std::string& text) {
   std::set<std::string> names;
   for (std::size_t open = text.find("{{"); open != std::string::npos;

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cctype>
 #include <cstdlib>
 
@@ -5,8 +6,10 @@
 #include "base/json_file.h"
 #include "base/numbers.h"
 #include "report/acceptance_report.h"
+#include "report/layout_notes.h"
 #include "report/report_attachments.h"
 #include "report/report_blocks.h"
+#include "report/table_block.h"
 
 namespace telestrain {
 namespace {
@@ -74,6 +77,29 @@ PdfInfo InfoOf(const ReportTemplate& layout, const Json& results, const Json& va
   return info;
 }
 
+// The height that the block needs at least to begin on a page.
+double Beginning_pt(const ReportContext& context, const Json& block) {
+  constexpr double kSignatures_pt = 150, kCaption_pt = 30, kOther_pt = 70;
+  const std::string type = TextAt(block, "/type");
+  if (type == "signatures") return kSignatures_pt;
+  if (type == "chart") return *NumberAt(block, "/height_mm") * kPointsPerMm + kCaption_pt;
+  if (type != "table" && type != "key-values") return kOther_pt;
+  // A small table is drawn whole; rows of two lines are taken for all.
+  constexpr double kTitles_pt = 50, kRow_pt = 26;
+  const Json& rows = ListAt(context.Table(TextAt(block, "/table")), "/rows");
+  return std::min(kTitles_pt + kRow_pt * static_cast<double>(rows.size()),
+                  kWholeShare * context.flow.PageBody_pt());
+}
+
+// A heading goes to the next page with the block that follows it.
+void KeepHeadingWithNext(const ReportContext& context, const Json& blocks, std::size_t i) {
+  constexpr double kHeading_pt = 34;
+  if (TextAt(blocks[i], "/type") != "heading" || !IsWanted(context.results, blocks[i])) return;
+  for (++i; i < blocks.size(); ++i)
+    if (IsWanted(context.results, blocks[i]))
+      return context.flow.Require(kHeading_pt + Beginning_pt(context, blocks[i]));
+}
+
 }  // namespace
 
 Status WriteReport(const std::filesystem::path& results, const ReportOptions& options) {
@@ -87,6 +113,8 @@ Status WriteReport(const std::filesystem::path& results, const ReportOptions& op
   TELESTRAIN_ASSIGN_OR_RETURN(const Json read,
                               ReadJson(path, "telestrain.results/1", "telestrain report"));
   TELESTRAIN_ASSIGN_OR_RETURN(const std::string bytes, ReadFile(path));
+  if (options.on_note)
+    for (const std::string& note : LayoutNotes(layout, read)) options.on_note(note);
   Json values = layout.FillValues(read);
   values["file"] = {{"results_sha256", Sha256Hex(bytes)}};
   TELESTRAIN_ASSIGN_OR_RETURN(std::vector<PdfAttachment> attachments, ReportAttachments(results));
@@ -97,9 +125,11 @@ Status WriteReport(const std::filesystem::path& results, const ReportOptions& op
   PageFlow flow(*pdf, layout.look());
   flow.StartPage();
   const ReportContext context{results, layout, said, values, flow};
-  for (std::size_t i = 0; i < layout.blocks().size(); ++i)
-    TELESTRAIN_RETURN_IF_ERROR(
-        DrawBlock(context, "/blocks/" + std::to_string(i), layout.blocks()[i]));
+  const Json blocks = WithAttachmentsTable(layout.blocks(), said);
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    KeepHeadingWithNext(context, blocks, i);
+    TELESTRAIN_RETURN_IF_ERROR(DrawBlock(context, "/blocks/" + std::to_string(i), blocks[i]));
+  }
   DrawPageFrames(context);
   for (PdfAttachment& attachment : attachments) pdf->Attach(std::move(attachment));
   TELESTRAIN_ASSIGN_OR_RETURN(

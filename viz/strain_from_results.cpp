@@ -53,6 +53,8 @@ Pipe PipeOf(const JsonNode& strain, const RecordedInputs& inputs,
   pipe.axis_in_array = fit.At("axis_in_array").Direction();
   pipe.radius_mm = fit.At("radius_mm").Positive();
   pipe.nominal_radius_mm = inputs.nominal_radius_mm;
+  if (strain.Has("geometry"))
+    pipe.stated_diameter_mm = strain.At("geometry").NumberOr("diameter_mm", 0);
   pipe.base_length_mm = strain.At("base_length_mm").Positive();
   pipe.gauges = PlaceGauges(strain, inputs.gauges, pipe);
   const JsonNode states = strain.At("states");

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/files.h"
+#include "base/json_file.h"
 
 namespace telestrain {
 namespace {
@@ -11,21 +12,6 @@ using SortedJson = nlohmann::json;
 
 // Entries are flat; what is deeper is none of ours and would only cost the stack.
 constexpr int kDeepest = 64;
-
-bool IsTooDeep(const std::string& text) {
-  int depth = 0;
-  bool in_string = false;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    if (in_string && c == '\\') ++i;
-    if (c == '"') in_string = !in_string;
-    if (in_string) continue;
-    if (c == '{' || c == '[') ++depth;
-    if (c == '}' || c == ']') --depth;
-    if (depth > kDeepest) return true;
-  }
-  return false;
-}
 
 std::string Dump(const SortedJson& json) {
   return json.dump(-1, ' ', false, SortedJson::error_handler_t::replace);
@@ -70,7 +56,7 @@ std::string AuditLine(const AuditEntry& entry, const std::string& entry_text) {
 }
 
 Result<AuditEntry> ParseAuditLine(const std::string& where, const std::string& line) {
-  if (IsTooDeep(line)) return BadInput(where + "is nested too deep for an entry");
+  if (IsJsonDeeper(line, kDeepest)) return BadInput(where + "is nested too deep for an entry");
   AuditEntry entry;
   std::string entry_text;
   try {

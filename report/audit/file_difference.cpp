@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "base/json_file.h"
+
 namespace telestrain {
 namespace {
 
@@ -56,7 +58,7 @@ std::string FirstDifference(const std::string& name, const std::string& found,
                             const std::string& again) {
   if (found == again) return "";
   const auto json = [](const std::string& text) { return Json::parse(text, nullptr, false); };
-  if (name.ends_with(".json")) {
+  if (name.ends_with(".json") && !IsJsonDeeper(found) && !IsJsonDeeper(again)) {
     const Json a = json(found), b = json(again);
     if (!a.is_discarded() && !b.is_discarded()) return DifferenceOfJson(a, b);
   }

@@ -4,7 +4,9 @@
 
 #include "base/files.h"
 #include "base/numbers.h"
+#include "base/utf8.h"
 #include "report/reading/pdf_contents.h"
+#include "report/signature/integrity.h"
 
 namespace telestrain {
 namespace {
@@ -25,9 +27,11 @@ const std::map<std::string, std::string> kDeeds = {
     {"review", "The review page was written"},
     {"export", "Files for other programs were written"}};
 
+// More names than this are counted.
+constexpr std::size_t kMostNames = 4;
+
 // "a, b and 3 more".
 std::string Listed(const std::vector<std::string>& names) {
-  constexpr std::size_t kMostNames = 4;
   std::string text;
   for (std::size_t i = 0; i < std::min(names.size(), kMostNames); ++i)
     text += (i == 0 ? "" : ", ") + names[i];
@@ -61,7 +65,9 @@ std::string StepInWords(const AuditEntry& entry) {
     text += ", \"" + session + "\"";
   const Json& inputs = ListAt(entry.body, "/inputs");
   const Json& outputs = ListAt(entry.body, "/outputs");
-  if (!inputs.empty()) text += ", from " + CountText(inputs.size(), "file");
+  if (!inputs.empty())
+    text += ", from " + (inputs.size() <= kMostNames ? Listed(PathsOf(inputs))
+                                                     : CountText(inputs.size(), "file"));
   if (!outputs.empty()) text += "; made " + Listed(PathsOf(outputs));
   return text + " (telestrain " + TextAt(entry.body, "/program/version") + ").";
 }
@@ -82,6 +88,27 @@ std::string RunInWords(const AuditEntry& entry) {
   return text;
 }
 
+// What a report.pdf says of itself: the trail inside ends before it was written.
+std::vector<std::string> TellReport(const std::string& bytes) {
+  std::vector<std::string> lines{"     The report was written with these results."};
+  const SignatureCheck check = CheckIntegrity(bytes, nullptr);
+  if (!check.failure.empty())
+    lines.push_back("     Its signatures do not hold: " + check.failure + ".");
+  else if (check.signatures.empty())
+    lines.push_back("     It is not signed.");
+  for (const PdfSignature& signature : check.signatures)
+    if (check.failure.empty())
+      lines.push_back("     " + signature.claimed_time + "  " + signature.signer +
+                      " signed it as " + signature.role +
+                      " (by this name and time; 'audit verify --trust' says whose it is).");
+  return lines;
+}
+
+std::vector<std::string> Printable(std::vector<std::string> lines) {
+  for (std::string& line : lines) line = PrintableText(line);
+  return lines;
+}
+
 }  // namespace
 
 std::vector<std::string> TellAudit(const std::vector<AuditEntry>& entries) {
@@ -98,7 +125,7 @@ std::vector<std::string> TellAudit(const std::vector<AuditEntry>& entries) {
     const std::string options = OptionsInWords(EntryAt(entry.body, "/options"));
     if (!options.empty()) lines.push_back("     with " + options);
   }
-  return lines;
+  return Printable(std::move(lines));
 }
 
 Result<std::vector<std::string>> TellAuditOf(const fs::path& subject) {
@@ -107,15 +134,19 @@ Result<std::vector<std::string>> TellAuditOf(const fs::path& subject) {
   const fs::path file = is_folder ? subject / "audit.jsonl" : subject;
   std::string name = file.string();
   TELESTRAIN_ASSIGN_OR_RETURN(std::string text, ReadFile(file));
+  std::vector<std::string> of_report;
   if (text.starts_with("%PDF-")) {
     TELESTRAIN_ASSIGN_OR_RETURN(PdfContents contents, ReadPdfContents(name, text));
     const auto trail = contents.attachments.find("audit.jsonl");
     if (trail == contents.attachments.end()) return BadInput(name + ": carries no audit trail");
+    of_report = Printable(TellReport(text));
     name = "the audit trail in " + name;
     text = std::move(trail->second);
   }
   TELESTRAIN_ASSIGN_OR_RETURN(const auto entries, ReadAuditTrail(name, text));
-  return TellAudit(entries);
+  std::vector<std::string> lines = TellAudit(entries);
+  lines.insert(lines.end(), of_report.begin(), of_report.end());
+  return lines;
 }
 
 }  // namespace telestrain

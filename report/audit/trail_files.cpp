@@ -1,7 +1,10 @@
 #include "report/audit/trail_files.h"
 
+#include <algorithm>
+
 #include "base/files.h"
 #include "report/audit/step_order.h"
+#include "report/signature/signed_layout.h"
 
 namespace telestrain {
 namespace {
@@ -13,18 +16,48 @@ constexpr const char* kReport = "report.pdf";
 bool IsOf(const Json& file, const char* where) { return TextAt(file, "/of") == where; }
 
 std::size_t BytesOf(const Json& file) {
+  constexpr double kMost = 9007199254740992.0;  // 2^53: what a double still counts one by one
   const double bytes = NumberAt(file, "/bytes").value_or(0);
-  return bytes > 0 ? static_cast<std::size_t>(bytes) : 0;
+  return bytes > 0 && bytes <= kMost ? static_cast<std::size_t>(bytes) : 0;
 }
 
-Status CheckFile(const std::string& path, const std::string& made_by, const TrailFile& wanted,
-                 const std::string& bytes) {
+// Devices, pipes and folders are no results, and reading one may never end.
+Status RequireRegular(const fs::path& file, const std::string& name) {
+  std::error_code code;
+  if (fs::is_regular_file(file, code)) return {};
+  return BadInput(name + " is no regular file");
+}
+
+// Whether the file has another size than recorded, so that it need not be read.
+bool HasOtherSize(const fs::path& file, std::size_t wanted_bytes) {
+  std::error_code code;
+  return wanted_bytes > 0 && fs::file_size(file, code) != wanted_bytes;
+}
+
+// Whether what was made is followed by nothing but updates of signatures. Whether those hold is
+// asked by CheckReport.
+Status CheckSignedSince(const std::string& bytes, const std::string& made_by,
+                        const TrailFile& wanted) {
+  const SignedLayout layout = ReadSignedLayout(bytes);
+  if (!layout.failure.empty()) return BadInput(layout.failure);
+  for (const RawSignature& signature : layout.signatures) {
+    const bool is_first = signature.begin == layout.signatures.front().begin;
+    // `report` made what is before the first signature, `sign` what is before a later one.
+    const bool fits = wanted.bytes > 0 ? is_first && signature.begin == wanted.bytes : !is_first;
+    if (fits && Sha256Hex(std::string_view(bytes).substr(0, signature.begin)) == wanted.sha256)
+      return {};
+  }
+  return BadInput(std::string(kReport) + " was changed after " + made_by + " made it");
+}
+
+Status CheckFile(const fs::path& file, const std::string& path, const std::string& made_by,
+                 const TrailFile& wanted) {
+  TELESTRAIN_RETURN_IF_ERROR(RequireRegular(file, path));
+  const Error changed = BadInput(path + " was changed after " + made_by + " made it");
+  if (path != kReport && HasOtherSize(file, wanted.bytes)) return changed;
+  TELESTRAIN_ASSIGN_OR_RETURN(const std::string bytes, ReadFile(file));
   if (Sha256Hex(bytes) == wanted.sha256) return {};
-  // Signatures are added to the end; whether they are valid is asked elsewhere.
-  const bool signed_since = path == kReport && wanted.bytes > 0 && bytes.size() > wanted.bytes &&
-                            bytes.find("/ByteRange", wanted.bytes) != std::string::npos;
-  if (signed_since && Sha256Hex(bytes.substr(0, wanted.bytes)) == wanted.sha256) return {};
-  return BadInput(path + " was changed after " + made_by + " made it");
+  return path == kReport ? CheckSignedSince(bytes, made_by, wanted) : changed;
 }
 
 void AddOutputs(const std::vector<AuditEntry>& entries, std::size_t index,
@@ -47,6 +80,23 @@ std::map<std::string, TrailFile> LatestOutputs(const std::vector<AuditEntry>& en
 
 std::string LineName(const std::vector<AuditEntry>& entries, std::size_t index) {
   return "line " + std::to_string(index + 1) + " (" + entries[index].type + ")";
+}
+
+bool LiesInside(const std::string& path) {
+  const fs::path parts(path);
+  return !path.empty() && path.find('\0') == std::string::npos && !parts.is_absolute() &&
+         std::find(parts.begin(), parts.end(), "..") == parts.end();
+}
+
+Status CheckPaths(const std::vector<AuditEntry>& entries) {
+  for (std::size_t i = 0; i < entries.size(); ++i)
+    for (const char* list : {"/inputs", "/outputs"})
+      for (const Json& file : ListAt(entries[i].body, list))
+        if (const std::string path = TextAt(file, "/path"); !LiesInside(path))
+          return BadInput(
+              LineName(entries, i) + " of the audit trail names the file '" + path +
+              "', which is no path inside the folder: it was not written by telestrain");
+  return {};
 }
 
 Status CheckStory(const std::vector<AuditEntry>& entries) {
@@ -77,8 +127,7 @@ Result<std::size_t> CheckOutputs(const std::vector<AuditEntry>& entries, const f
       if (IsSuperseded(entries, file.entry)) continue;
       return BadInput(path + " is missing, which " + made_by + " made");
     }
-    TELESTRAIN_ASSIGN_OR_RETURN(const std::string bytes, ReadFile(results / path));
-    TELESTRAIN_RETURN_IF_ERROR(CheckFile(path, made_by, file, bytes));
+    TELESTRAIN_RETURN_IF_ERROR(CheckFile(results / path, path, made_by, file));
     ++count;
   }
   return count;
@@ -96,10 +145,12 @@ Result<std::size_t> CheckInputs(const std::vector<AuditEntry>& entries, const fs
     std::error_code code;
     if (!fs::exists(session / path, code))
       return BadInput("input " + path + " is missing in " + session.string());
+    TELESTRAIN_RETURN_IF_ERROR(RequireRegular(session / path, "input " + path));
+    const Error changed = BadInput("input " + path + " was changed after " +
+                                   LineName(entries, open) + " of the audit trail read it");
+    if (HasOtherSize(session / path, BytesOf(file))) return changed;
     TELESTRAIN_ASSIGN_OR_RETURN(const std::string hash, Sha256HexOfFile(session / path));
-    if (hash != TextAt(file, "/sha256"))
-      return BadInput("input " + path + " was changed after " + LineName(entries, open) +
-                      " of the audit trail read it");
+    if (hash != TextAt(file, "/sha256")) return changed;
     ++count;
   }
   return count;

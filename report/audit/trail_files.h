@@ -24,12 +24,19 @@ std::map<std::string, TrailFile> LatestOutputs(const std::vector<AuditEntry>& en
 // "line 5 (verify)".
 std::string LineName(const std::vector<AuditEntry>& entries, std::size_t index);
 
+// Every path of an entry's inputs and outputs lies inside the folder it is of: relative, without
+// "..". A trail is a file that anybody may have written; ask this before any of its paths is
+// opened.
+Status CheckPaths(const std::vector<AuditEntry>& entries);
+bool LiesInside(const std::string& path);
+
 // Every entry read the files that entries before it had made: none was exchanged between two steps.
 Status CheckStory(const std::vector<AuditEntry>& entries);
 
 // The files in the folder are as the latest entries made them; one may be missing only where a
-// later step took it away. A report.pdf that was signed since begins as it was made. The value is
-// how many there are.
+// later step took it away. A report.pdf that was signed since begins as it was made, with updates
+// from there on that are laid out as signatures are: whether they hold is asked elsewhere. The
+// value is how many there are.
 Result<std::size_t> CheckOutputs(const std::vector<AuditEntry>& entries,
                                  const std::filesystem::path& results);
 

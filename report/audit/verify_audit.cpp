@@ -4,8 +4,11 @@
 
 #include "base/files.h"
 #include "base/numbers.h"
+#include "base/utf8.h"
 #include "report/audit/report_check.h"
 #include "report/audit/trail_files.h"
+#include "report/reading/pdf_contents.h"
+#include "report/signature/certificate.h"
 
 namespace telestrain {
 namespace {
@@ -28,6 +31,7 @@ Result<FolderTrail> ReadTrail(const fs::path& file) {
   TELESTRAIN_ASSIGN_OR_RETURN(trail.text, ReadFile(file));
   TELESTRAIN_ASSIGN_OR_RETURN(trail.entries, ReadAuditTrail(file.string(), trail.text));
   if (trail.entries.empty()) return BadInput(file.string() + " is empty");
+  TELESTRAIN_RETURN_IF_ERROR(CheckPaths(trail.entries));
   return trail;
 }
 
@@ -44,20 +48,34 @@ Result<std::string> InputsInWords(const AuditQuestion& question, const FolderTra
   return CountText(count, "input") + " unchanged";
 }
 
-bool CarriesNothing(const FolderTrail& trail) {
-  const auto report = std::find_if(trail.entries.rbegin(), trail.entries.rend(),
-                                   [](const AuditEntry& entry) { return entry.type == "report"; });
-  return report != trail.entries.rend() && TextAt(report->body, "/options/archive-level") == "1b";
-}
-
 Result<std::string> ReportInWords(const AuditQuestion& question, const FolderTrail& trail) {
   const fs::path path = question.subject / "report.pdf";
+  const TrustOptions& trust = question.trust;
+  if (!IsThere(path) && !trust.required_roles.empty())
+    return BadInput("report.pdf is missing, which the " + trust.required_roles.front() +
+                    " must have signed (--require)");
+  if (!IsThere(path) && !trust.certificates.empty())
+    return BadInput("report.pdf is missing although --trust names who may sign");
   if (!IsThere(path)) return std::string("no report.pdf");
-  if (CarriesNothing(trail)) return std::string("report.pdf of level 1b carries no attachments");
   TELESTRAIN_ASSIGN_OR_RETURN(const std::string bytes, ReadFile(path));
   TELESTRAIN_ASSIGN_OR_RETURN(const std::string words,
-                              CheckReport("report.pdf", bytes, question.trust, &trail));
+                              CheckReport("report.pdf", bytes, trust, &trail));
   return "report.pdf: " + words;
+}
+
+// The lines after those of the report and its signatures, in words; empty without any.
+std::string LooseLines(const AuditQuestion& question, const FolderTrail& trail) {
+  std::size_t held = 0;
+  for (std::size_t i = 0; i < trail.entries.size(); ++i)
+    if (trail.entries[i].type == "report" ||
+        (trail.entries[i].type == "sign" && TextAt(trail.entries[i].body, "/file") == "report.pdf"))
+      held = i + 1;
+  if (!IsThere(question.subject / "report.pdf")) held = 0;
+  const std::size_t loose = trail.entries.size() - held;
+  if (loose == 0) return "";
+  if (loose == 1) return "; no signature holds the trail's last line (--log anchors it)";
+  return "; no signature holds the trail's last " + std::to_string(loose) +
+         " lines (--log anchors them)";
 }
 
 Result<std::string> CheckLogFile(const AuditQuestion& question, const fs::path& file,
@@ -88,29 +106,60 @@ Result<std::string> CheckFolder(const AuditQuestion& question) {
   TELESTRAIN_ASSIGN_OR_RETURN(const std::string report, ReportInWords(question, trail));
   std::string words = CountText(trail.entries.size(), "step") + " chained, " +
                       CountText(files, "file") + " unchanged, " + inputs + "; " + report;
-  if (question.log.empty()) return words;
+  if (question.log.empty()) return words + LooseLines(question, trail);
   TELESTRAIN_ASSIGN_OR_RETURN(const std::string log,
                               CheckLogFile(question, question.log, trail.entries.back().hash));
   return words + "; " + log;
 }
 
-// A report that lies in its results folder must fit the trail there.
+// A report by itself: the session can be asked by the trail inside.
 Result<std::string> CheckPdf(const AuditQuestion& question) {
   const std::string name = question.subject.filename().string();
   TELESTRAIN_ASSIGN_OR_RETURN(const std::string bytes, ReadFile(question.subject));
-  const fs::path beside = question.subject.parent_path() / "audit.jsonl";
-  if (name != "report.pdf" || !IsThere(beside))
-    return CheckReport(name, bytes, question.trust, nullptr);
-  TELESTRAIN_ASSIGN_OR_RETURN(const FolderTrail trail, ReadTrail(beside));
-  TELESTRAIN_RETURN_IF_ERROR(CheckOutputs(trail.entries, beside.parent_path()));
-  return CheckReport(name, bytes, question.trust, &trail);
+  TELESTRAIN_ASSIGN_OR_RETURN(const std::string words,
+                              CheckReport(name, bytes, question.trust, nullptr));
+  if (question.session.empty()) return words + "; inputs not checked: no --session";
+  TELESTRAIN_ASSIGN_OR_RETURN(const PdfContents contents, ReadPdfContents(name, bytes));
+  const auto trail = contents.attachments.find("audit.jsonl");
+  if (trail == contents.attachments.end())
+    return BadInput(name + " carries no audit trail, which would tell the inputs");
+  TELESTRAIN_ASSIGN_OR_RETURN(const auto entries, ReadAuditTrail(name, trail->second));
+  TELESTRAIN_ASSIGN_OR_RETURN(const std::size_t count, CheckInputs(entries, question.session));
+  return words + "; " + CountText(count, "input") + " unchanged";
 }
+
+bool IsLog(const fs::path& subject) { return subject.extension() == ".jsonl"; }
 
 Result<std::string> Check(const AuditQuestion& question) {
   std::error_code code;
   if (fs::is_directory(question.subject, code)) return CheckFolder(question);
-  if (question.subject.extension() == ".jsonl") return CheckLogFile(question, question.subject, "");
+  if (IsLog(question.subject)) return CheckLogFile(question, question.subject, "");
   return CheckPdf(question);
+}
+
+// What is asked must have a sense for what it is asked of: nothing is passed over in silence.
+Status CheckSense(const AuditQuestion& question) {
+  const auto usage = [](const std::string& message) { return Error{ErrorKind::kUsage, message}; };
+  std::error_code code;
+  const bool is_folder = fs::is_directory(question.subject, code);
+  if (IsLog(question.subject) && !is_folder &&
+      (!question.trust.required_roles.empty() || !question.session.empty() ||
+       !question.log.empty()))
+    return usage("--require, --session and --log are of a report or a results folder; " +
+                 question.subject.string() + " is a log");
+  if (!question.log.empty() && !is_folder)
+    return usage("--log must tell of the latest line of a results folder; name the folder");
+  if (!question.public_key.empty() && question.log.empty() && !IsLog(question.subject))
+    return usage("--public-key is of the instrument's log; name it, or give it with --log");
+  return {};
+}
+
+// A report.pdf in its results folder is checked with all that lies there.
+AuditQuestion OfFolder(AuditQuestion question) {
+  const fs::path folder = question.subject.parent_path();
+  if (question.subject.filename() == "report.pdf" && IsThere(folder / "audit.jsonl"))
+    question.subject = folder.empty() ? fs::path(".") : folder;
+  return question;
 }
 
 }  // namespace
@@ -121,13 +170,13 @@ Result<AuditAnswer> VerifyAudit(const AuditQuestion& question) {
     TELESTRAIN_RETURN_IF_ERROR(RequireThere(path));
   for (const fs::path& path : question.trust.certificates)
     TELESTRAIN_RETURN_IF_ERROR(RequireThere(path));
-  if (!question.public_key.empty() && question.log.empty() &&
-      question.subject.extension() != ".jsonl")
-    return Error{ErrorKind::kUsage,
-                 "--public-key is of the instrument's log; name it, or give it with --log"};
-  const Result<std::string> checked = Check(question);
-  if (checked) return AuditAnswer{true, "PASS: " + *checked};
-  return AuditAnswer{false, "FAIL: " + checked.error().message};
+  const auto trusted = ReadCertificates(question.trust.certificates);
+  if (!trusted) return trusted.error();
+  const AuditQuestion of_folder = OfFolder(question);
+  TELESTRAIN_RETURN_IF_ERROR(CheckSense(of_folder));
+  const Result<std::string> checked = Check(of_folder);
+  if (checked) return AuditAnswer{true, PrintableText("PASS: " + *checked)};
+  return AuditAnswer{false, PrintableText("FAIL: " + checked.error().message)};
 }
 
 }  // namespace telestrain

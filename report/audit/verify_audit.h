@@ -27,9 +27,11 @@ struct AuditAnswer {
 
 // A results folder: the chain of its audit.jsonl; that every file is as the latest entry made it
 // and every step read what the one before had made; that the session is as it was read; its
-// report.pdf (CheckReport). A report.pdf with an audit.jsonl beside it is checked against that too,
-// any other for all that it holds. Fails only when the subject, the named session, a certificate or
-// a key cannot be read (kBadInput) or is of no such kind (kUsage).
+// report.pdf (CheckReport). A report.pdf with an audit.jsonl beside it is its results folder; any
+// other is checked for all that it holds, and its inputs when the session is named. Who is trusted
+// or required must have signed: a report that is missing or not signed fails then. Control
+// characters of names are printed as \xNN. Fails only when the subject, the named session, a
+// certificate or a key cannot be read (kBadInput) or is of no such kind (kUsage).
 Result<AuditAnswer> VerifyAudit(const AuditQuestion& question);
 
 }  // namespace telestrain

@@ -76,9 +76,9 @@ void WriteCoreData(DccXml& xml, const Json& results) {
 void WriteContact(DccXml& xml, const std::string& element, const std::string& name,
                   const std::string& address) {
   const auto contact = xml.Open(element);
-  xml.Text("dcc:name", name);
+  xml.GivenText("dcc:name", name);
   const auto location = xml.Open("dcc:location");
-  xml.Text("dcc:further", address);
+  xml.GivenText("dcc:further", address);
 }
 
 void WritePersons(DccXml& xml, const Json& results) {
@@ -89,7 +89,7 @@ void WritePersons(DccXml& xml, const Json& results) {
     const auto entry = xml.Open("dcc:respPerson");
     {
       const auto person = xml.Open("dcc:person");
-      xml.Text("dcc:name", name);
+      xml.GivenText("dcc:name", name);
     }
     xml.Leaf("dcc:role", role);
     xml.Leaf("dcc:mainSigner", first ? "true" : "false");

@@ -79,7 +79,8 @@ void WriteInstrument(DccXml& xml, const Json& results) {
   const auto item = xml.Open("dcc:item", {{"id", "instrument"}});
   const std::string name = DocumentFact(results, {"instrument"});
   const std::string serial = DocumentFact(results, {"instrument_serial"});
-  xml.Text("dcc:name", name.empty() ? "Four-view telecentric camera array" : name);
+  if (name.empty()) xml.Text("dcc:name", "Four-view telecentric camera array");
+  xml.GivenText("dcc:name", name);
   if (serial.empty() && !name.empty())
     WriteIdentifications(xml, {{"owner", "Instrument", name}});
   else
@@ -101,8 +102,8 @@ void WriteSpecimen(DccXml& xml, const Json& results) {
   const std::string name = DocumentFact(results, {"item"});
   if (name.empty()) return;
   const auto item = xml.Open("dcc:item", {{"id", "specimen"}});
-  xml.Text("dcc:name", name);
-  xml.Text("dcc:description", DocumentFact(results, {"condition", "item_condition"}));
+  xml.GivenText("dcc:name", name);
+  xml.GivenText("dcc:description", DocumentFact(results, {"condition", "item_condition"}));
   WriteIdentifications(xml, {{"customer", "Item",
                               DocumentFact(results, {"serial_numbers", "item_serial",
                                                      "serial_number", "serial", "item"})}});

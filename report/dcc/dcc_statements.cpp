@@ -15,6 +15,15 @@ void WriteStatement(DccXml& xml, const std::string& name, const std::string& dec
   xml.Text("dcc:declaration", declaration);
 }
 
+// One that the session gives.
+void WriteGiven(DccXml& xml, const std::string& name, const std::string& declaration,
+                const DccXml::Attributes& attributes = {}) {
+  if (XmlText(declaration).empty()) return;
+  const auto statement = xml.Open("dcc:statement", attributes);
+  xml.Text("dcc:name", name);
+  xml.GivenText("dcc:declaration", declaration);
+}
+
 // Keys of [document] that other parts of the certificate hold, each between blanks.
 constexpr std::string_view kPlaced =
     " number report_number revision country country_code laboratory "
@@ -50,7 +59,7 @@ void WritePlace(DccXml& xml, const Json& results) {
   const auto statement = xml.Open("dcc:statement");
   xml.Text("dcc:name", "Place of the test");
   const auto location = xml.Open("dcc:location");
-  xml.Text("dcc:further", place);
+  xml.GivenText("dcc:further", place);
 }
 
 }  // namespace
@@ -64,18 +73,18 @@ void WriteStatements(DccXml& xml, const Json& results) {
   if (traceability.empty())
     WriteStatement(xml, "Traceability", kNotStated);
   else
-    WriteStatement(xml, "Traceability", traceability,
-                   {{"refType", "basic_metrologicallyTraceableToSI"}});
+    WriteGiven(xml, "Traceability", traceability,
+               {{"refType", "basic_metrologicallyTraceableToSI"}});
   WriteStatement(xml, "What the results relate to",
                  "The results relate only to the items calibrated.");
   WriteDates(xml, results);
   WritePlace(xml, results);
-  WriteStatement(xml, "Title", PrintedAt(results, "/title"));
+  WriteGiven(xml, "Title", PrintedAt(results, "/title"));
   const Json& document = EntryAt(results, "/document");
   if (!document.is_object()) return;
   for (const auto& [key, value] : document.items())
     if (!HasPlace(key) && !(key == "date" && !DocumentDay(results, {"date"}).empty()))
-      WriteStatement(xml, KeyAsName(key), DocumentFact(results, {key.c_str()}));
+      WriteGiven(xml, KeyAsName(key), DocumentFact(results, {key.c_str()}));
 }
 
 void WriteMethods(DccXml& xml, const Json& results) {
@@ -109,7 +118,7 @@ void WriteConditions(DccXml& xml, const Json& results) {
   const auto condition = xml.Open("dcc:influenceCondition");
   xml.Text("dcc:name", "Environment during the measurement");
   const auto data = xml.Open("dcc:data");
-  xml.Text("dcc:text", DocumentFactOr(results, {"environment"}));
+  xml.GivenText("dcc:text", DocumentFactOr(results, {"environment"}));
 }
 
 }  // namespace telestrain

@@ -79,6 +79,12 @@ void DccXml::Text(const std::string& name, const std::string& text, const Attrib
   Leaf("dcc:content", text, {{"lang", "en"}});
 }
 
+void DccXml::GivenText(const std::string& name, const std::string& text) {
+  if (XmlText(text).empty()) return;
+  const Element element = Open(name);
+  Leaf("dcc:content", text);
+}
+
 Result<std::string> DccXml::Finish() {
   if (parts_->ok) Check(xmlTextWriterEndDocument(parts_->writer.get()));
   if (!parts_->ok) return OutputFailed("dcc.xml: libxml2 could not write the document");

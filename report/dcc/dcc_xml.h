@@ -40,6 +40,8 @@ class DccXml {
   void Leaf(const std::string& name, const std::string& text, const Attributes& attributes = {});
   // dcc:textType or dcc:richContentType: an element whose content is the English text.
   void Text(const std::string& name, const std::string& text, const Attributes& attributes = {});
+  // The same of a text that the session gave, in whatever language.
+  void GivenText(const std::string& name, const std::string& text);
   // The document. Fails with kOutputFailed when libxml2 refused any part of it.
   Result<std::string> Finish();
 

@@ -2,6 +2,9 @@
 
 #include <qpdf/QPDF.hh>
 #include <string>
+#include <vector>
+
+#include "report/reading/printed_hashes.h"
 
 namespace telestrain {
 
@@ -9,9 +12,13 @@ namespace telestrain {
 // than `limit` bytes: a small file may hold a stream of any length.
 std::string StreamBytes(QPDFObjectHandle stream, std::size_t limit);
 
-// The text that a page draws, UTF-8: a line per piece (from one place to the next), in drawing
-// order. Text of fonts other than this program's kind (Type0 with 16-bit Unicode codes) is left
-// out. Throws std::exception when the page is malformed or its content longer than `limit` bytes.
-std::string PageText(QPDF& pdf, QPDFObjectHandle page, std::size_t limit);
+struct PageText {
+  std::string text;  // UTF-8, a line per piece (from one place to the next), in drawing order
+  std::vector<PrintedHash> hashes;  // those that can be seen
+};
+
+// What a page says. Throws std::exception when the page is malformed, draws otherwise than our
+// reports do, or its content is longer than `limit` bytes, of which its length is taken.
+PageText ReadPage(QPDF& pdf, QPDFObjectHandle page, std::size_t& limit);
 
 }  // namespace telestrain

@@ -1,8 +1,9 @@
 #include "report/reading/pdf_contents.h"
 
-#include <qpdf/QPDFEmbeddedFileDocumentHelper.hh>
 #include <stdexcept>
 
+#include "report/reading/attached_files.h"
+#include "report/reading/classic_pdf.h"
 #include "report/reading/page_text.h"
 
 namespace telestrain {
@@ -11,11 +12,10 @@ namespace {
 // Far more than a report of ours has; a hostile file must not fill the memory.
 constexpr std::size_t kMostFileBytes = std::size_t{256} << 20;
 constexpr std::size_t kMostAttachmentBytes = std::size_t{256} << 20;  // of all together
-constexpr std::size_t kMostPageBytes = std::size_t{64} << 20;         // drawing of one page
-constexpr std::size_t kMostTextBytes = std::size_t{64} << 20;         // of all pages
+constexpr std::size_t kMostPageBytes = std::size_t{64} << 20;         // drawing of all pages
 constexpr std::size_t kMostPages = 5000;
 
-using Attachments = std::map<std::string, std::string>;
+constexpr const char* kTrail = "audit.jsonl";
 
 void Open(QPDF& pdf, const std::string& name, const std::string& bytes) {
   pdf.setSuppressWarnings(true);
@@ -24,35 +24,33 @@ void Open(QPDF& pdf, const std::string& name, const std::string& bytes) {
   if (pdf.isEncrypted()) throw std::runtime_error("it is encrypted, which no report of ours is");
 }
 
-Attachments AttachmentsOf(QPDF& pdf) {
-  Attachments attachments;
-  std::size_t left = kMostAttachmentBytes;
-  for (const auto& [key, file] : QPDFEmbeddedFileDocumentHelper(pdf).getEmbeddedFiles()) {
-    // What a reader shows is the name in the file specification.
-    const std::string name = file->getFilename();
-    QPDFObjectHandle stream = file->getEmbeddedFileStream();
-    if (!stream.isStream()) throw std::runtime_error("attachment " + name + " has no bytes");
-    std::string content = StreamBytes(stream, left);
-    left -= content.size();
-    if (!attachments.emplace(name, std::move(content)).second)
-      throw std::runtime_error("two attachments are named " + name);
-  }
-  return attachments;
-}
-
-std::vector<std::string> PageTextsOf(QPDF& pdf) {
-  std::vector<std::string> texts;
-  std::size_t total = 0;
+// Text and rows of all pages.
+std::vector<PrintedHash> ReadPages(QPDF& pdf, std::vector<std::string>& texts) {
+  std::vector<PrintedHash> rows;
+  std::size_t left = kMostPageBytes;
   const std::vector<QPDFObjectHandle>& pages = pdf.getAllPages();
   if (pages.empty() || pages.size() > kMostPages)
     throw std::runtime_error("it has " + std::to_string(pages.size()) + " pages, expected 1 to " +
                              std::to_string(kMostPages));
   for (const QPDFObjectHandle& page : pages) {
-    texts.push_back(PageText(pdf, page, kMostPageBytes));
-    total += texts.back().size();
-    if (total > kMostTextBytes) throw std::runtime_error("it has too much text");
+    PageText read = ReadPage(pdf, page, left);
+    texts.push_back(std::move(read.text));
+    rows.insert(rows.end(), read.hashes.begin(), read.hashes.end());
   }
-  return texts;
+  return rows;
+}
+
+// The row behind the trail's is its head, whatever it is called in the report's language.
+void TakeHashes(const std::vector<PrintedHash>& rows, PdfContents& contents) {
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (!contents.attachments.contains(rows[i].row)) continue;
+    const auto [known, is_new] = contents.printed_hashes.emplace(rows[i].row, rows[i].sha256);
+    if (!is_new && known->second != rows[i].sha256)
+      throw std::runtime_error("it prints two different SHA-256 of " + rows[i].row);
+    const bool head_follows = i + 1 < rows.size() && rows[i].row == kTrail &&
+                              !contents.attachments.contains(rows[i + 1].row);
+    if (head_follows) contents.printed_head = rows[i + 1].sha256;
+  }
 }
 
 std::string FirstWarning(QPDF& pdf) {
@@ -66,14 +64,16 @@ Result<PdfContents> ReadPdfContents(const std::string& name, const std::string& 
   const auto fail = [&](const std::string& reason) {
     return BadInput(name + ": is no undamaged PDF report: " + reason);
   };
-  if (!bytes.starts_with("%PDF-")) return fail("it does not begin as a PDF does");
   if (bytes.size() > kMostFileBytes)
     return fail("it has " + std::to_string(bytes.size()) + " bytes, at most " +
                 std::to_string(kMostFileBytes) + " are read");
+  if (const std::string reason = WhyNotClassicPdf(bytes); !reason.empty()) return fail(reason);
   try {
     QPDF pdf;
     Open(pdf, name, bytes);
-    PdfContents contents{AttachmentsOf(pdf), PageTextsOf(pdf)};
+    PdfContents contents;
+    contents.attachments = AttachedFiles(pdf, kMostAttachmentBytes);
+    TakeHashes(ReadPages(pdf, contents.page_texts), contents);
     if (const std::string warning = FirstWarning(pdf); !warning.empty()) return fail(warning);
     return contents;
   } catch (const QPDFExc& e) {

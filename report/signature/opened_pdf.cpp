@@ -3,9 +3,13 @@
 #include <exception>
 #include <qpdf/Buffer.hh>
 
+#include "report/reading/classic_pdf.h"
+
 namespace telestrain {
 
 OpenedPdf OpenPdf(const std::string& bytes) {
+  if (const std::string reason = WhyNotClassicPdf(bytes); !reason.empty())
+    return {nullptr, "the PDF is damaged: " + reason};
   OpenedPdf opened{std::make_unique<QPDF>(), ""};
   opened.pdf->setSuppressWarnings(true);
   opened.pdf->setAttemptRecovery(false);

@@ -3,7 +3,6 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <array>
 #include <cstdlib>
 #include <ctime>
 #include <map>
@@ -13,7 +12,9 @@
 #include "app/step_options.h"
 #include "base/files.h"
 #include "base/numbers.h"
+#include "base/utf8.h"
 #include "report/audit/file_difference.h"
+#include "report/audit/repeatable.h"
 #include "report/audit/step_order.h"
 #include "report/audit/trail_files.h"
 
@@ -35,9 +36,6 @@ const std::map<std::string, Verb> kVerbs = {
     {"diagnose", {&MakeDiagnoseCommand, false}}, {"render", {&MakeRenderCommand, false}},
     {"report", {&MakeReportCommand, false}},     {"review", {&MakeReviewCommand, false}},
     {"export", {&MakeExportCommand, false}}};
-
-// Options that say where a verb writes.
-constexpr std::array kPlaces = {"out", "turntable", "states"};
 
 // A folder that goes with the object, unless it is to be kept.
 class WorkFolder {
@@ -141,7 +139,7 @@ class Replay {
     else
       words.push_back(work_.Results().string());
     Json options = EntryAt(entry.body, "/options");
-    for (const char* place : kPlaces)
+    for (const char* place : kWritingOptions)
       if (const std::string recorded = TextAt(options, std::string("/") + place); !recorded.empty())
         options[place] = Place(recorded);
     if (!TextAt(options, "/watch").empty()) {  // as many states as had arrived
@@ -177,7 +175,7 @@ class Replay {
   // The folder of an entry's files that are not results: its place, or what holds it.
   fs::path ElsewhereOf(std::size_t index) const {
     fs::path place = work_.Elsewhere();
-    for (const char* name : kPlaces)
+    for (const char* name : kWritingOptions)
       if (const auto recorded = TextAt(entries_[index].body, std::string("/options/") + name);
           !recorded.empty())
         place = Place(recorded);
@@ -245,6 +243,7 @@ Result<std::string> Compared(const ReplayChoices& choices, const fs::path& sessi
   TELESTRAIN_ASSIGN_OR_RETURN(const auto entries,
                               ReadAuditTrail((choices.results / "audit.jsonl").string(), text));
   if (entries.empty()) return BadInput("the audit trail is empty");
+  TELESTRAIN_RETURN_IF_ERROR(CheckRepeatable(entries));
   TELESTRAIN_RETURN_IF_ERROR(CheckInputs(entries, session));
   Replay replay(choices, session, entries, work);
   const Result<std::string> difference = replay.Run();
@@ -262,7 +261,7 @@ Result<int> ReplayAudit(const ReplayChoices& choices, Console& console) {
   TELESTRAIN_ASSIGN_OR_RETURN(const fs::path session, SessionOf(choices));
   TELESTRAIN_ASSIGN_OR_RETURN(const WorkFolder work, WorkFolder::Make(choices.keep));
   const Result<std::string> compared = Compared(choices, session, text, work);
-  console.Say(compared ? "PASS: " + *compared : "FAIL: " + compared.error().message);
+  console.Say(PrintableText(compared ? "PASS: " + *compared : "FAIL: " + compared.error().message));
   return compared ? 0 : 1;
 }
 

@@ -30,6 +30,22 @@ void WarnOfStage(const AmbiguityDecision& decision, Console& console) {
                  " stage moves agree with the nominal views; check calibration.csv");
 }
 
+void SayRejected(const Calibration& calibration, Console& console) {
+  const auto& rejected = calibration.data.rejected;
+  const auto boards = std::count_if(rejected.begin(), rejected.end(), [](const auto& r) {
+    return r.whole_board && r.corners > 0 && r.reason != kCulledReason;
+  });
+  if (boards > 0)
+    console.Warn(
+        CountText(static_cast<std::size_t>(boards), "board") +
+        " with corners left out whole; 'rejected' in calibration.json says why, 'telestrain "
+        "diagnose' what they look like");
+  if (calibration.corners_rejected > 0)
+    console.Note("  " +
+                 CountText(static_cast<std::size_t>(calibration.corners_rejected), "corner") +
+                 " rejected; calibration.json lists where and why");
+}
+
 void SayCalibration(const Calibration& calibration, Console& console) {
   const ArrayCalibration& array = calibration.bundle.state.array;
   console.Say("calibrate  magnification " + FormatFixed(array.Magnification_px_per_mm(), 4) +
@@ -58,19 +74,7 @@ void SayCalibration(const Calibration& calibration, Console& console) {
         "  " +
         CountText(static_cast<std::size_t>(calibration.corners_below_half_weight), "corner") +
         " beyond three standard deviations: weighed down, but counted in the RMS");
-  const auto& rejected = calibration.data.rejected;
-  const auto boards = std::count_if(rejected.begin(), rejected.end(), [](const auto& r) {
-    return r.whole_board && r.corners > 0 && r.reason != kCulledReason;
-  });
-  if (boards > 0)
-    console.Warn(
-        CountText(static_cast<std::size_t>(boards), "board") +
-        " with corners left out whole; 'rejected' in calibration.json says why, 'telestrain "
-        "diagnose' what they look like");
-  if (calibration.corners_rejected > 0)
-    console.Note("  " +
-                 CountText(static_cast<std::size_t>(calibration.corners_rejected), "corner") +
-                 " rejected; calibration.json lists where and why");
+  SayRejected(calibration, console);
 }
 
 void SayComparison(const fs::path& old_path, const std::vector<Change>& changes, Console& console) {

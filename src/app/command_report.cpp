@@ -67,7 +67,8 @@ class ReportCommand : public Command {
       console.Say(heading);
       for (const NamedTemplate& name : names) {
         const std::size_t gap = name.name.size() < 16 ? 16 - name.name.size() : 1;
-        console.Say("  " + name.name + std::string(gap, ' ') + name.title);
+        console.Say("  " + name.name + std::string(gap, ' ') +
+                    (name.fault.empty() ? name.title : "cannot be used: " + name.fault));
       }
     };
     say("layouts", list.layouts);

@@ -155,7 +155,7 @@ Status WriteMeasurement(const PipeMeasurement& measurement, const fs::path& resu
       WriteJson(results / "strain.json", StrainJson(measurement, made_from)));
   console.Say("measure    " + CountText(measurement.states.size(), "state") + ", " +
               CountText(measurement.grid.points.size(), "surface point") + ", pipe diameter " +
-              FormatFixed(2 * measurement.grid.pipe.radius_mm, 4) + " mm");
+              FormatFixed(measurement.geometry.diameter_mm, 4) + " mm");
   return {};
 }
 

@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <functional>
+#include <iostream>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <system_error>
@@ -68,7 +69,11 @@ Status SetAside(const fs::path& path) {
                                                hash.substr(0, 8) + path.extension().string());
   std::error_code code;
   fs::rename(path, aside, code);
-  if (!code) return {};
+  if (!code) {
+    std::cerr << "the signed " << path.filename().string() << " is now "
+              << aside.filename().string() << '\n';
+    return {};
+  }
   return OutputFailed(path.string() + ": is signed and cannot be renamed " +
                       aside.filename().string() + ": " + code.message() +
                       "; move it by hand or choose another --out folder");

@@ -11,7 +11,8 @@
 
 namespace telestrain {
 
-// Removes the files of this step and of those that depend on it.
+// Removes the files of this step and of those that depend on it. A signed report is renamed, which
+// is said on stderr.
 Status RemoveOutputsFrom(const std::filesystem::path& results, Step step);
 
 // Removes what `measure` makes at its end and the steps after it make of that, but not the files of

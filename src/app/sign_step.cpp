@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "base/files.h"
+#include "base/utf8.h"
 #include "report/audit/audit_trail.h"
 #include "report/signature/sign_report.h"
 #include "report/signature/utc_time.h"
@@ -176,8 +177,9 @@ Result<int> SignStep(const SignArguments& arguments, Console& console) {
       return OutputFailed(
           target + " is signed, but its audit trail does not tell of it: " + told.error().message);
   }
-  console.Say("signed     " + target + " as " + options.role + ": " + signed_report.signer +
-              ", certificate " + signed_report.fingerprint.substr(0, 16) + "…");
+  console.Say("signed     " + target + " as " + options.role + ": " +
+              PrintableText(signed_report.signer) + ", certificate " +
+              signed_report.fingerprint.substr(0, 16) + "…");
   return 0;
 }
 

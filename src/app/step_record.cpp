@@ -34,7 +34,7 @@ std::string InsideResults(const fs::path& results, const fs::path& path) {
 Status AddFiles(const StepRecord& step, const fs::path& results, const Json& inputs_json,
                 Json& inputs) {
   std::map<std::string, Json> known;
-  for (const Json& file : inputs_json.at("files")) known[file.at("path")] = file;
+  for (const Json& file : ListAt(inputs_json, "/files")) known[TextAt(file, "/path")] = file;
   for (const std::string& name : step.session_inputs)
     if (const auto file = known.find(name); file != known.end()) {
       inputs.push_back({{"of", "session"}});

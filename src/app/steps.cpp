@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "app/changed_results.h"
 #include "app/results_folder.h"
 #include "app/step_record.h"
 #include "base/files.h"
@@ -229,10 +230,15 @@ Result<int> ReportStep(const fs::path& results, const ReportChoices& choices, Co
     return BadInput((results / "calibration.json").string() +
                     ": does not exist; run 'telestrain calibrate' first");
   std::set<std::string> untranslated;
-  const ReportOptions options{choices.templates, choices.layout, choices.language, choices.level,
-                              [&](const std::string& text) { untranslated.insert(text); }};
+  const ReportOptions options{choices.templates,
+                              choices.layout,
+                              choices.language,
+                              choices.level,
+                              [&](const std::string& text) { untranslated.insert(text); },
+                              [&](const std::string& note) { console.Note("  " + note); }};
   // A wrong layout must be known before an older report goes.
   TELESTRAIN_ASSIGN_OR_RETURN(const ReportScope scope, ScopeOf(options, choices.against));
+  for (const std::string& change : ChangesSinceRecorded(results)) console.Warn(change);
   TELESTRAIN_RETURN_IF_ERROR(RemoveOutputsFrom(results, Step::kReport));
   TELESTRAIN_ASSIGN_OR_RETURN(const Outcome outcome, MakeResults(results, scope));
   Json recorded{{"template", choices.layout},

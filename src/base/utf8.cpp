@@ -25,21 +25,60 @@ Sequence SequenceOf(unsigned char lead) {
   return {0};
 }
 
+// The bytes of the well-formed sequence at the beginning of `text`, which is not empty; 0 when
+// there is none.
+std::size_t LengthOfFirst(std::string_view text) {
+  const auto byte = [text](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const Sequence sequence = SequenceOf(byte(0));
+  if (sequence.length > text.size()) return 0;
+  for (std::size_t i = 1; i < sequence.length; ++i) {
+    const unsigned char low = i == 1 ? sequence.second_min : 0x80;
+    const unsigned char high = i == 1 ? sequence.second_max : 0xBF;
+    if (byte(i) < low || byte(i) > high) return 0;
+  }
+  return sequence.length;
+}
+
+// Of one well-formed character: C0, DEL and C1 controls; U+200E, U+200F, U+2028 to U+202E and
+// U+2066 to U+2069.
+bool MovesText(std::string_view character) {
+  const auto byte = [character](std::size_t i) { return static_cast<unsigned char>(character[i]); };
+  if (character.size() == 1) return byte(0) < 0x20 || byte(0) == 0x7F;
+  if (character.size() == 2) return byte(0) == 0xC2 && byte(1) < 0xA0;
+  if (character.size() != 3 || byte(0) != 0xE2) return false;
+  const unsigned char last = byte(2);
+  if (byte(1) == 0x80) return last == 0x8E || last == 0x8F || (last >= 0xA8 && last <= 0xAE);
+  return byte(1) == 0x81 && last >= 0xA6 && last <= 0xA9;
+}
+
 }  // namespace
 
 bool IsValidUtf8(std::string_view text) {
-  const auto byte = [text](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  for (std::size_t begin = 0; begin < text.size();) {
-    const Sequence sequence = SequenceOf(byte(begin));
-    if (sequence.length == 0 || sequence.length > text.size() - begin) return false;
-    for (std::size_t i = 1; i < sequence.length; ++i) {
-      const unsigned char low = i == 1 ? sequence.second_min : 0x80;
-      const unsigned char high = i == 1 ? sequence.second_max : 0xBF;
-      if (byte(begin + i) < low || byte(begin + i) > high) return false;
-    }
-    begin += sequence.length;
+  while (!text.empty()) {
+    const std::size_t length = LengthOfFirst(text);
+    if (length == 0) return false;
+    text.remove_prefix(length);
   }
   return true;
+}
+
+std::string PrintableText(std::string_view text) {
+  constexpr char kDigits[] = "0123456789abcdef";
+  std::string printable;
+  while (!text.empty()) {
+    const std::size_t length = LengthOfFirst(text);
+    const std::string_view character = text.substr(0, length == 0 ? 1 : length);
+    if (length != 0 && !MovesText(character)) {
+      printable += character;
+    } else {
+      for (const char c : character) {
+        const auto byte = static_cast<unsigned char>(c);
+        printable += {'\\', 'x', kDigits[byte >> 4], kDigits[byte & 15]};
+      }
+    }
+    text.remove_prefix(character.size());
+  }
+  return printable;
 }
 
 }  // namespace telestrain

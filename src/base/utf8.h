@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <string_view>
 
 namespace telestrain {
@@ -8,5 +9,10 @@ namespace telestrain {
 // point written longer than needed, no surrogate, none above U+10FFFF. Zero bytes are well-formed.
 // Texts of input files end up in JSON results, which hold nothing else.
 bool IsValidUtf8(std::string_view text);
+
+// `text` as it may go to a terminal or into one line: bytes of control characters, of line and
+// paragraph separators, of marks that turn the writing direction, and bytes that are not UTF-8 are
+// written as \xNN. For names and paths that come out of files.
+std::string PrintableText(std::string_view text);
 
 }  // namespace telestrain

@@ -17,10 +17,13 @@ std::string TwoDigits(double value, double size) {
 }
 
 // `room`: how far the value stays below its limit.
-std::string DoubtPattern(double room) {
-  const std::string start = "in doubt: {{margin}} over the guard band; ";
-  if (room == 0) return start + "on the limit, no uncertainty decides it";
-  return start + "repeat with U of {{needed}} or less to " + (room > 0 ? "pass" : "fail");
+const char* DoubtPattern(double room) {
+  if (room == 0) return "in doubt: exactly on the limit; no smaller U decides it";
+  if (room > 0)
+    return "in doubt: {{margin}} inside the limit, less than U; a repeat with U of {{needed}} or "
+           "less passes";
+  return "in doubt: {{margin}} outside the limit, less than U; a repeat with U below {{needed}} "
+         "fails";
 }
 
 std::string Filled(std::string pattern, const std::map<std::string, std::string>& values) {
@@ -84,8 +87,7 @@ Decision DecideInWords(double value, double expanded_uncertainty, double limit, 
     case Verdict::kDoubt:
       decision.margin = room - u;
       decision.pattern = DoubtPattern(room);
-      decision.values["margin"] = text(-decision.margin);
-      if (room != 0) decision.values["needed"] = text(std::abs(room));
+      if (room != 0) decision.values["margin"] = decision.values["needed"] = text(std::abs(room));
       break;
   }
   if (u > 0 && (decision.verdict == Verdict::kPass || decision.verdict == Verdict::kFail))

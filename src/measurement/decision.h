@@ -25,8 +25,8 @@ struct Decision {
   // Room between the value with its guard band and the limit; negative where it is exceeded. 0 when
   // undecided.
   double margin = 0;
-  // "passes with 3.2 µm to spare beyond U", "in doubt: 0.4 µm over the guard band; repeat with U
-  // of 1.1 µm or less to pass", "fails: 1.2 µm outside beyond U", "not decided: …".
+  // "passes with 3.2 µm to spare beyond U", "in doubt: 1.4 µm inside the limit, less than U; a
+  // repeat with U of 1.4 µm or less passes", "fails: 1.2 µm outside beyond U", "not decided: …".
   std::string words;
   // The same sentence for a translator: its {{margin}} and {{needed}} stand in `values`.
   std::string pattern;

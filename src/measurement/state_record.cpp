@@ -4,6 +4,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "base/json_file.h"
 #include "base/numbers.h"
 
 namespace telestrain {
@@ -174,6 +175,7 @@ std::string StateRecordLine(const StateRecord& record) {
 }
 
 Result<StateRecord> ReadStateRecord(const std::string& line) {
+  if (IsJsonDeeper(line)) return BadInput("no whole record: nested too deep");
   try {
     const Json json = Json::parse(line);
     if (json.at("schema") != kStateSchema)

@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <numbers>
+#include <regex>
 
 #include "base/files.h"
 #include "base/numbers.h"
@@ -165,6 +167,23 @@ FieldReader AcceptanceTable(AcceptanceSpec& acceptance) {
           }};
 }
 
+// Keys of [document] that other programs read as a date.
+bool IsDateKey(const std::string& key) {
+  return key == "date" || key == "issued" || key == "measured" || key == "measured_from" ||
+         key == "measured_to" || key == "received";
+}
+
+// "2026-01-17", ISO 8601, and a time if it likes; the month has to have such a day.
+bool IsIsoDate(const std::string& text) {
+  static const std::regex kDate("([0-9]{4})-([0-9]{2})-([0-9]{2})([T ][0-9:.Z+-]+)?");
+  std::smatch parts;
+  if (!std::regex_match(text, parts, kDate)) return false;
+  return std::chrono::year_month_day(std::chrono::year(std::stoi(parts[1])),
+                                     std::chrono::month(static_cast<unsigned>(std::stoi(parts[2]))),
+                                     std::chrono::day(static_cast<unsigned>(std::stoi(parts[3]))))
+      .ok();
+}
+
 // Free keys; scalars become text as they are written.
 FieldReader DocumentTable(std::map<std::string, std::string>& document) {
   return {"a table", [&document](const TomlNode& node) -> Status {
@@ -172,6 +191,8 @@ FieldReader DocumentTable(std::map<std::string, std::string>& document) {
             for (const TomlNode& entry : node.children) {
               if (entry.kind == TomlNode::Kind::kTable || entry.kind == TomlNode::Kind::kArray)
                 return WrongValue(entry, "a text, number, truth value or date");
+              if (IsDateKey(entry.key) && !entry.text.empty() && !IsIsoDate(entry.text))
+                return WrongValue(entry, "a date after ISO 8601 such as \"2026-01-17\"");
               document[entry.key] = entry.text;
             }
             return {};

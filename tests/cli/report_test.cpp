@@ -84,5 +84,30 @@ TEST_F(ReportVerb, NothingOfARealReportIsLeftInEnglish) {
     }
 }
 
+// A layout of one's own that does not draw the hashes gets them: the report can be verified.
+TEST_F(ReportVerb, EveryLayoutPrintsWhatAuditVerifyCompares) {
+  MustRun({"detect", "calibrate"});
+  const fs::path own = scratch() / "own";
+  fs::create_directories(own);
+  std::ofstream(own / "incoming.json")
+      << R"({"schema": "telestrain.template/1", "title": "Incoming inspection",
+             "blocks": [{"include": "opening"}, {"type": "end-mark", "text": "End"}]})";
+  for (const char* language : {"en", "de"}) {
+    MustWrite({"--templates", own.string(), "--template", "incoming", "--language", language});
+    const ProgramRun run = RunTelestrain({"audit", "verify", (results() / "report.pdf").string()});
+    EXPECT_EQ(run.exit_code, 0) << language;
+    EXPECT_TRUE(run.out.starts_with("PASS: 5 attachments as printed")) << run.out;
+  }
+}
+
+TEST_F(ReportVerb, WarnsOfAFileThatWasChangedSinceItsStep) {
+  MustRun({"detect", "calibrate"});
+  EXPECT_EQ(MustWrite({}).err.find("was changed"), std::string::npos);
+  std::ofstream(results() / "calibration.json", std::ios::app) << " ";
+  EXPECT_NE(MustWrite({}).err.find("calibration.json: was changed since 'telestrain calibrate' "
+                                   "wrote it; 'telestrain audit verify' will fail"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace telestrain::testing_support

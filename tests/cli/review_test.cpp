@@ -47,7 +47,7 @@ TEST_F(ReviewVerb, WritesOneFileWithTheSameBytesEveryTime) {
   EXPECT_TRUE(Holds(bytes, "data:image/png;base64,"));
   EXPECT_TRUE(fs::exists(results() / "pictures" / "top.png"));
   EXPECT_EQ(ReadAll(results() / "report.pdf"), report);
-  const auto before = BytesBelow(results());
+  auto before = BytesBelow(results());
   const fs::path other = scratch() / "other.html", none = scratch() / "none" / "page.html";
   const auto write_to = [&](const fs::path& path) {
     return RunTelestrain({"review", results().string(), "--out", path.string()}).exit_code;
@@ -55,7 +55,9 @@ TEST_F(ReviewVerb, WritesOneFileWithTheSameBytesEveryTime) {
   EXPECT_EQ(write_to(other), 0);
   EXPECT_EQ(ReadAll(other), bytes);
   EXPECT_EQ(write_to(none), 5);
-  EXPECT_EQ(BytesBelow(results()), before);
+  auto after = BytesBelow(results());
+  for (auto* files : {&before, &after}) files->erase("audit.jsonl");  // tells of every page
+  EXPECT_TRUE(after == before);
 }
 
 TEST_F(ReviewVerb, NeedsAReportOfTheSameRun) {

@@ -72,12 +72,26 @@ TEST(TellAuditTest, TellsStepsSignaturesAndRuns) {
               {"exit_code", 0}};
   EXPECT_EQ(TellAudit({step, sign, run}),
             (std::vector<std::string>{
-                "  1  Lens and views were calibrated, from 1 file; made calibration.json "
+                "  1  Lens and views were calibrated, from corners.vnl; made calibration.json "
                 "(telestrain 1.2.3).",
                 "     with outliers mrcal, board-warp",
                 "  2  2026-01-02T03:04:05Z  Zhang Wei signed report.pdf as operator.",
                 "  3  anna on bench ran 'telestrain detect s --out r', which ended with 0 "
                 "(accepted)."}));
+}
+
+TEST(TellAuditTest, NamesCannotWriteLinesOfTheirOwn) {
+  AuditEntry sign;
+  sign.type = "sign";
+  sign.body = {{"role", "operator"}, {"signer", "A\n  2  B\x1b[2J"}, {"file", "report.pdf"}};
+  EXPECT_EQ(TellAudit({sign}),
+            std::vector<std::string>{"  1  A\\x0a  2  B\\x1b[2J signed report.pdf as operator."});
+}
+
+TEST(FileDifferenceTest, DeepJsonIsComparedAsText) {
+  const std::string deep(1000000, '[');
+  EXPECT_TRUE(FirstDifference("a.json", deep + std::string(1000000, ']'), deep + "1")
+                  .starts_with("line 1 is '[["));
 }
 
 }  // namespace

@@ -27,6 +27,20 @@ TEST(Budget, TheTotalIsTheRootSumOfSquares) {
   EXPECT_EQ(TextAt(rows[0], "/2"), "83.6");  // 0.743² / 0.66035
 }
 
+// √(0.0013 - 0.0004) = 0.03; 4 / 13 of the variance is the noise's.
+TEST(Budget, TheMagnificationHasOneOfNoiseAndCertificate) {
+  ResultsFixture fixture = PlausibleResults();
+  fixture.calibration["covariance"] = {{"parameters", {"magnification_px_per_mm"}},
+                                       {"matrix", {{0.0013}}},
+                                       {"matrix_of_noise", {{0.0004}}}};
+  const Json results = MakeAndRead(fixture);
+  const Json& table = TableIn(results, "magnification-budget");
+  EXPECT_NEAR(*NumberAt(RowOf(table, "cross positions"), "/1/value"), 0.02, 1e-12);
+  EXPECT_NEAR(*NumberAt(RowOf(table, "target certificate"), "/1/value"), 0.03, 1e-12);
+  EXPECT_EQ(TextAt(RowOf(table, "cross positions"), "/2"), "30.8");
+  EXPECT_EQ(TextAt(TableIn(results, "budget"), "/rows/0/0"), "Magnification");
+}
+
 TEST(Budget, SourcesSayHowTheyWereEvaluated) {
   ResultsFixture fixture = PlausibleResults();
   fixture.ruler["budget"][0]["source"] = "cross positions";

@@ -134,6 +134,47 @@ TEST_F(Changes, AnotherInstrumentIsRefused) {
   ExpectRefused(FolderOfTest("other"), "has the views 'C1, A2, B1, B2', these results have");
 }
 
+TEST_F(Changes, AnotherSensorLensOrArtefactIsRefused) {
+  const auto expect = [&](const char* pointer, const Json& value, const std::string& words) {
+    ResultsFixture now = PlausibleResults(), then = Earlier();
+    for (ResultsFixture* fixture : {&now, &then}) {
+      fixture->inputs["document"]["target_serial"] = "T-1182";
+      fixture->inputs["views"] = {{{"name", "A1"}, {"region_px", {0, 0, 1296, 972}}}};
+    }
+    then.inputs[Json::json_pointer(pointer)] = value;
+    MakeAndRead(then, {}, "other");
+    const auto folder = FolderOfTest("refused");
+    WriteResults(now, folder);
+    ReportScope scope;
+    scope.earlier = FolderOfTest("other");
+    const auto made = MakeResults(folder, scope);
+    ASSERT_FALSE(made) << pointer;
+    EXPECT_EQ(made.error().kind, ErrorKind::kBadInput);
+    EXPECT_NE(made.error().message.find(words), std::string::npos) << made.error().message;
+  };
+  expect("/sensor/width_px", 648, "the sensor width in px 648, these results have 2592; compare");
+  expect("/lens/magnification", 0.125, "the nominal magnification 0.125, these results have 0.5");
+  expect("/views/0/region_px", Json{0, 0, 324, 243},
+         "for view A1 the region_px [0,0,324,243], these results have [0,0,1296,972]");
+  expect("/document/target_serial", "T-7", "target_serial T-7, these results have T-1182");
+}
+
+// 1 of the 4.31/5.31 µε kind is within, the magnification is not: see the first test.
+TEST_F(Changes, TheFirstPageSaysHowManyValuesChanged) {
+  const Json results = Compare(Earlier(), PlausibleResults());
+  const std::string words = TextAt(results, "/sentences/compared_with");
+  EXPECT_EQ(words.find("Compared with AR-2025-0007 of 2025-02-03: 1 of "), 0u) << words;
+  EXPECT_NE(words.find("In the instrument 1 of 1 values moved"), std::string::npos) << words;
+}
+
+TEST_F(Changes, AnEnFarBeyondOneIsNotPrintedInFull) {
+  ResultsFixture earlier = Earlier();
+  earlier.calibration["lens"]["magnification_px_per_mm"] = 57.0;
+  const Json row = RowOf(TableIn(Compare(earlier, PlausibleResults()), "changes"), "Magnification");
+  EXPECT_GT(*NumberAt(row, "/7/value"), 100);
+  EXPECT_EQ(TextAt(row, "/7"), "> 100");
+}
+
 TEST_F(Changes, WhatIsNoReportIsRefused) {
   const auto empty = FolderOfTest("empty");
   std::filesystem::create_directories(empty);

@@ -13,7 +13,9 @@ namespace {
 double InDcc(const std::string& printed, const std::string& unit) {
   const auto number = ParseDouble(printed);
   if (!number) return NAN;
-  const double scale = unit.starts_with("10⁻⁹") ? 1e-9 : unit.starts_with("ppm") ? 1e-6 : 1;
+  const double scale = unit.starts_with("10⁻⁹")                              ? 1e-9
+                       : unit.starts_with("10⁻⁶") || unit.starts_with("ppm") ? 1e-6
+                                                                             : 1;
   return *number * scale;
 }
 

@@ -86,6 +86,20 @@ TEST_F(Dcc, KeepsEveryFactOfTheDocument) {
             std::vector<std::string>{"PO 7 & 8"});
 }
 
+// Nobody said in which language the session is.
+TEST_F(Dcc, TextsOfTheSessionHaveNoLanguage) {
+  fixture_.inputs["document"]["condition"] = "ohne Schäden";
+  const std::string xml = Make();
+  for (const char* given : {"//dcc:customer/dcc:name", "//dcc:respPerson//dcc:name",
+                            "//dcc:item[@id='specimen']/dcc:description",
+                            "//dcc:statement[dcc:name/dcc:content='Traceability']/dcc:declaration",
+                            "//dcc:influenceCondition//dcc:text"}) {
+    EXPECT_FALSE(TextsAt(xml, std::string(given) + "/dcc:content").empty()) << given;
+    EXPECT_TRUE(TextsAt(xml, std::string(given) + "/dcc:content/@lang").empty()) << given;
+  }
+  EXPECT_EQ(TextsAt(xml, "//dcc:influenceCondition/dcc:name/dcc:content/@lang").at(0), "en");
+}
+
 TEST_F(Dcc, EscapesAndCleansTexts) {
   Json& document = fixture_.inputs["document"];
   document["customer"] = "A<b>&\"c\" 'd' ]]> \t\n  e";

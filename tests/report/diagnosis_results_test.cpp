@@ -53,9 +53,9 @@ TEST_F(DiagnosisResults, AgreementPassesInAUnitThatReadsWell) {
   EXPECT_EQ(outcome_.verdict, "pass");
   EXPECT_EQ(Sentence("mrcal"), "mrcal agrees.");
   const Json& optimum = Quantity("mrcal_optimum_difference");
-  EXPECT_EQ(TextAt(optimum, "/printed"), "0.20");
-  EXPECT_EQ(TextAt(optimum, "/printed_limit"), "≤ 1000");
-  EXPECT_EQ(TextAt(optimum, "/unit"), "10⁻⁹ px");
+  EXPECT_EQ(TextAt(optimum, "/printed"), "0.00020");
+  EXPECT_EQ(TextAt(optimum, "/printed_limit"), "≤ 1");
+  EXPECT_EQ(TextAt(optimum, "/unit"), "10⁻⁶ px");
   for (const char* id : {"mrcal_optimum_difference", "mrcal_projection_difference"})
     EXPECT_EQ(TextAt(Quantity(id), "/verdict"), "pass") << id;
   EXPECT_TRUE(SummaryHas("mrcal's own optimum"));

@@ -19,14 +19,28 @@ std::string EditedPdf(const std::string& bytes, const std::function<void(QPDF&)>
   return {reinterpret_cast<const char*>(buffer->getBuffer()), buffer->getSize()};
 }
 
+namespace {
+
+// The associated files of the document are its attachments, as in our reports.
+void AssociateAll(QPDF& pdf) {
+  auto list = QPDFObjectHandle::newArray();
+  for (const auto& [name, file] : QPDFEmbeddedFileDocumentHelper(pdf).getEmbeddedFiles())
+    list.appendItem(file->getObjectHandle());
+  pdf.getRoot().replaceKey("/AF", list);
+}
+
+}  // namespace
+
 void AttachToPdf(QPDF& pdf, const std::string& name, const std::string& bytes) {
   auto stream = QPDFEFStreamObjectHelper::createEFStream(pdf, bytes);
   auto file = QPDFFileSpecObjectHelper::createFileSpec(pdf, name, stream);
   QPDFEmbeddedFileDocumentHelper(pdf).replaceEmbeddedFile(name, file);
+  AssociateAll(pdf);
 }
 
 void DetachFromPdf(QPDF& pdf, const std::string& name) {
   QPDFEmbeddedFileDocumentHelper(pdf).removeEmbeddedFile(name);
+  AssociateAll(pdf);
 }
 
 }  // namespace telestrain

@@ -32,7 +32,7 @@ bool IsSameInEveryLanguage(const std::string& text) {
   static const std::regex kNumbers(
       R"([-+±≤ ()0-9.e/⁻⁹·<|]*(px|mm|µm|µε|m|rad|s|min|ppm|%|°)?[0-9² ()]*)");
   static const std::regex kUnits(
-      R"((10⁻⁹ |n|µ|m|p)?(px|mm|m|rad|ppm|g)?[²³⁴]?(/(px|mm|µm|°|h|m)[²⁴⁶]?)?)");
+      R"((10⁻⁶ |10⁻⁹ |n|µ|m|p)?(px|mm|m|rad|ppm|g)?[²³⁴]?(/(px|mm|µm|°|h|m)[²⁴⁶]?)?)");
   static const std::regex kNames(
       R"(([ABU]?[0-9]|[a-zA-Z0-9_]+/[^ ]*|[^ ]+\.[a-z]{2,5}|[pP][0-9]+|[0-9a-f]{64}|[kpuvxytAB][0-9]?(,? [kpAB][0-9])*))");
   static const std::regex kPrograms(R"(telestrain|mrcal|ZNSSD|SHA-256|µm|RMS|JCGM 100)");

@@ -150,6 +150,18 @@ TEST_F(OwnFolder, AddsLayoutsAndReplacesSectionsTheRestIsBuiltIn) {
   EXPECT_EQ(list->layouts.size(), 5u);
 }
 
+TEST_F(OwnFolder, AListNamesAFileThatCannotBeReadAndTheOthers) {
+  WriteLayout("mine", "", R"({"type": "page-break"})");
+  Write("broken.json", "{,}");
+  const auto list = ListTemplates(folder_);
+  ASSERT_TRUE(list) << list.error().message;
+  ASSERT_EQ(list->layouts.size(), 6u);
+  for (const NamedTemplate& layout : list->layouts)
+    EXPECT_EQ(layout.fault.find("broken.json: is not valid JSON") != std::string::npos,
+              layout.name == "broken")
+        << layout.name << layout.fault;
+}
+
 TEST_F(OwnFolder, ErrorsNameFilePointerAndTheNearestWord) {
   WriteLayout("mine", "", R"({"include": "rular"})");
   ExpectFault("mine", {"mine.json: /blocks/0/include", "did you mean 'ruler'"});

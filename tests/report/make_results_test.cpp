@@ -171,9 +171,9 @@ TEST(MakeResults, DecisionsSayTheirMarginInWords) {
   ASSERT_EQ(rows.size(), 3u);
   bool found = false;
   for (const Json& row : rows)
-    found = found ||
-            TextAt(row, "/1") ==
-                "in doubt: 1.0 µm over the guard band; repeat with U of 0.8 µm or less to pass";
+    found = found || TextAt(row, "/1") ==
+                         "in doubt: 0.8 µm inside the limit, less than U; a repeat with U of 0.8 "
+                         "µm or less passes";
   EXPECT_TRUE(found) << rows.dump(1);
 }
 

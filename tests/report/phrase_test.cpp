@@ -36,6 +36,16 @@ TEST(Phrase, AFinishedSentenceGivesUpItsNumbersAndNames) {
   EXPECT_EQ(PhraseOfText("No drift is resolved."), Json("No drift is resolved."));
 }
 
+TEST(Phrase, ALensModelIsSaidByItsParts) {
+  const std::string text = "aspect k1 p1 p2 telecentricity, bow of the boards, a lens per view";
+  const Json model = ModelPhrase(text);
+  EXPECT_EQ(TextAt(model, "/printed"), text);
+  EXPECT_EQ(TextAt(model, "/values/v1/pattern"), "{{lens}} telecentricity");
+  EXPECT_EQ(TextAt(model, "/values/v1/values/lens/values/lens"), "k1 p1 p2");
+  EXPECT_EQ(TextAt(model, "/values/v2/values/v2"), "a lens per view");
+  EXPECT_EQ(ModelPhrase("k1"), Json("k1"));
+}
+
 TEST(Phrase, JoinedPhrasesKeepTheirPatterns) {
   EXPECT_EQ(JoinPhrases({"", ""}), Json(""));
   EXPECT_EQ(JoinPhrases({"", "alone"}), Json("alone"));

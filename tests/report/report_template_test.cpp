@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "report/layout_notes.h"
+
 namespace telestrain {
 namespace {
 
@@ -15,12 +17,24 @@ TEST(ReportTemplate, TheBuiltInOneIsValid) {
   EXPECT_GT(layout->blocks().size(), 20u);
 }
 
+// A layout and what the error about it names.
+struct Case {
+  std::string text;
+  std::vector<std::string> wanted;
+};
+
+void ExpectErrors(const std::vector<Case>& cases) {
+  for (const Case& c : cases) {
+    const auto layout = ReportTemplate::Parse("layout.json", c.text);
+    ASSERT_FALSE(layout) << c.text;
+    EXPECT_EQ(layout.error().kind, ErrorKind::kBadInput);
+    for (const std::string& wanted : c.wanted)
+      EXPECT_NE(layout.error().message.find(wanted), std::string::npos) << layout.error().message;
+  }
+}
+
 TEST(ReportTemplate, ErrorsNameThePointerAndTheRemedy) {
-  struct Case {
-    std::string text;
-    std::vector<std::string> wanted;
-  };
-  const Case cases[] = {
+  ExpectErrors({
       {"{", {"layout.json", "not valid JSON"}},
       {"[]", {"layout.json: /: is a list, must be an object"}},
       {R"({"schema": "x", "title": "t", "blocks": [{"type": "page-break"}]})",
@@ -46,14 +60,25 @@ TEST(ReportTemplate, ErrorsNameThePointerAndTheRemedy) {
       {Layout(R"({"type": "chart", "charts": "x", "height_mm": 50})"), {"/blocks/0/charts"}},
       {Layout(R"({"type": "chart", "charts": ["ruler-errors"], "height_mm": 900})"),
        {"/blocks/0/height_mm", "20 to 240"}},
-  };
-  for (const Case& c : cases) {
-    const auto layout = ReportTemplate::Parse("layout.json", c.text);
-    ASSERT_FALSE(layout) << c.text;
-    EXPECT_EQ(layout.error().kind, ErrorKind::kBadInput);
-    for (const std::string& wanted : c.wanted)
-      EXPECT_NE(layout.error().message.find(wanted), std::string::npos) << layout.error().message;
-  }
+  });
+}
+
+TEST(ReportTemplate, UnknownNamesAndRepeatedKeysAreErrors) {
+  ExpectErrors({
+      {Layout(R"({"type": "text", "text": "{{docment.customer}}"})"),
+       {"/blocks/0/text", "{{docment.customer}}", "'document'"}},
+      {Layout(R"({"type": "text", "text": "{{page}}"})"), {"/blocks/0/text", "header"}},
+      {Layout(R"({"type": "text", "text": "{{report.numbr}}"})"), {"/blocks/0/text", "'number'"}},
+      {R"({"schema": "telestrain.template/1", "title": "t", "blocks": [{"type": "page-break"}],
+           "footer": {"left": "{{pag}}"}})",
+       {"/footer/left", "{{pag}}", "'page'"}},
+      {R"({"schema": "telestrain.template/1", "title": "t", "blocks": [{"type": "page-break"}],
+           "labels": {"Page {{page}}": "Sheet {{pag}}"}})",
+       {"/labels/Page {{page}}", "{{pag}}"}},
+      {R"({"schema": "telestrain.template/1", "title": "t",
+           "blocks": [{"type": "page-break"}, {"type": "text", "text": "a", "text": "b"}]})",
+       {"layout.json: /blocks/1/text", "twice"}},
+  });
 }
 
 TEST(ReportTemplate, FillsTextsAndSaysLabelsInItsOwnWording) {
@@ -65,6 +90,32 @@ TEST(ReportTemplate, FillsTextsAndSaysLabelsInItsOwnWording) {
   EXPECT_EQ(layout->Say("Limit"), "Tolerance");
   EXPECT_EQ(layout->Say("Unit"), "Unit");
   EXPECT_EQ(layout->Fill("Page {{page}}", {{"page", 3}}), "Sheet 3");
+}
+
+TEST(ReportTemplate, TakesEntriesOfADocumentInItsOwnSection) {
+  const auto layout = ReportTemplate::Parse(
+      "t", Layout(R"({"type": "text", "text": "{{#document}}for {{customer}}{{/document}}"})"));
+  ASSERT_TRUE(layout) << layout.error().message;
+  EXPECT_EQ(layout->Fill("{{#document}}for {{customer}}{{/document}}",
+                         {{"document", {{"customer", "C"}}}}),
+            "for C");
+}
+
+TEST(ReportTemplate, NotesWhatALayoutAsksForInVain) {
+  const auto layout =
+      ReportTemplate::Parse("t", R"({"schema": "telestrain.template/1", "title": "t",
+               "labels": {"Limmit": "Tolerance", "Limit": "Tolerance"}, "blocks": [
+        {"type": "text", "text": "for {{document.custumer}}"},
+        {"type": "text", "text": "{{#document.item}}of {{document.item}}{{/document.item}}"}]})");
+  ASSERT_TRUE(layout) << layout.error().message;
+  const auto notes = LayoutNotes(*layout, {{"document", {{"customer", "C"}}}});
+  ASSERT_EQ(notes.size(), 2u);
+  EXPECT_NE(notes[0].find("'Limmit'"), std::string::npos) << notes[0];
+  EXPECT_NE(notes[0].find("did you mean 'Limit'"), std::string::npos) << notes[0];
+  EXPECT_NE(notes[1].find("document.custumer"), std::string::npos) << notes[1];
+  EXPECT_NE(notes[1].find("nearest is 'customer'"), std::string::npos) << notes[1];
+  for (const char* name : {"acceptance", "calibration", "reverification", "strain"})
+    EXPECT_TRUE(LayoutNotes(*ReportTemplate::Load({{}, name, "en"}), Json::object()).empty());
 }
 
 // Names that the session gave are never taken for wordings.

@@ -10,6 +10,15 @@
 namespace telestrain {
 namespace {
 
+// Places asked for: 2, 3, 2 and none; a zero would hide what the column says otherwise.
+TEST(Rounding, AColumnHasOnePlace) {
+  EXPECT_EQ(DecimalsOfColumn({0.25, 0.012, 0.31, 0}), 2);
+  EXPECT_EQ(DecimalsOfColumn({120}), -1);
+  EXPECT_EQ(DecimalsOfColumn({0}), std::nullopt);
+  EXPECT_EQ(PrintAtDecimals(745.244, 2), "745.24");
+  EXPECT_EQ(PrintAtDecimals(4567, -1), "4570");
+}
+
 TEST(Rounding, KeepsTwoDigitsOfTheUncertainty) {
   struct Case {
     double value, uncertainty;

@@ -146,7 +146,7 @@ Part PipePart(const Pipe& pipe, const std::array<double, 2>& span_mm) {
   part.color = kPipeColor;
   part.opacity = kPipeOpacity;
   part.lit = true;
-  part.facts = {{"fitted diameter", FormatFixed(2 * pipe.radius_mm, 4) + " mm"}};
+  part.facts = {{"measured diameter", FormatFixed(pipe.Diameter_mm(), 4) + " mm"}};
   if (pipe.nominal_radius_mm > 0)
     part.facts.push_back({"nominal diameter", FormatFixed(2 * pipe.nominal_radius_mm, 4) + " mm"});
   return part;

@@ -109,14 +109,16 @@ struct PipeState {
 struct Pipe {
   Eigen::Vector3d axis_point_in_array_mm = Eigen::Vector3d::Zero();
   Eigen::Vector3d axis_in_array = Eigen::Vector3d::UnitX();
-  double radius_mm = 0;          // fitted
-  double nominal_radius_mm = 0;  // of the session; 0 when it names none
+  double radius_mm = 0;           // fitted
+  double nominal_radius_mm = 0;   // of the session; 0 when it names none
+  double stated_diameter_mm = 0;  // as measured, the one that the report states; 0: none
   double base_length_mm = 0;
   std::vector<Gauge> gauges;
   std::vector<PipeState> states;  // empty only for the nominal pipe of a rig
   std::size_t largest_state = 0;  // with the largest absolute long-base strain, the first of equals
 
   const PipeState& Largest() const { return states[largest_state]; }
+  double Diameter_mm() const { return stated_diameter_mm > 0 ? stated_diameter_mm : 2 * radius_mm; }
 };
 
 // What the session asks for; absent when it does not.

@@ -47,6 +47,17 @@ TEST(JsonFileTest, ErrorsSayWhatMakesTheFile) {
   EXPECT_NE(MessageOf(path).find("telestrain make"), std::string::npos);
 }
 
+TEST(JsonFileTest, DeepBracketsAreRefusedBeforeTheyCostTheStack) {
+  const ScratchFolder folder("json_deep");
+  const std::string open(1000000, '['), close(1000000, ']');
+  ASSERT_TRUE(
+      WriteFileAtomically(folder.path() / "f.json", "{\"schema\": " + open + close + "}").ok());
+  EXPECT_NE(MessageOf(folder.path() / "f.json").find("nested deeper than 200"), std::string::npos);
+  EXPECT_FALSE(IsJsonDeeper("{\"a\\\"[[[[\": [\"[[[[\"]}", 2));
+  EXPECT_TRUE(IsJsonDeeper("{\"a\": [[]]}", 2));
+  EXPECT_FALSE(IsJsonDeeper("[[], [[]], []]", 3));
+}
+
 TEST(JsonFileTest, APathThatCannotBeAskedForIsBadInput) {
   const ScratchFolder folder("json_paths");
   std::filesystem::create_symlink("loop", folder.path() / "loop");

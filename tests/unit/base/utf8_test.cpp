@@ -42,6 +42,16 @@ TEST(Utf8Test, OverlongFormsAndOtherEncodingsAreInvalid) {
     EXPECT_FALSE(IsValidUtf8(text)) << text;
 }
 
+TEST(Utf8Test, WhatWouldMoveTheTextIsPrintedAsItsBytes) {
+  EXPECT_EQ(PrintableText("Zhang Wei, 张伟, \u00e9, \U0001F600"),
+            "Zhang Wei, 张伟, \u00e9, \U0001F600");
+  EXPECT_EQ(PrintableText(std::string("a\0b\x1b[2J\r\nPASS\x7f", 14)),
+            "a\\x00b\\x1b[2J\\x0d\\x0aPASS\\x7f");
+  EXPECT_EQ(PrintableText("\u009b1m \u202e \u2028 \u2069"),
+            "\\xc2\\x9b1m \\xe2\\x80\\xae \\xe2\\x80\\xa8 \\xe2\\x81\\xa9");
+  EXPECT_EQ(PrintableText("R\xF6hre \xE4\xBC"), "R\\xf6hre \\xe4\\xbc");
+}
+
 TEST(Utf8Test, EmptyTextAndZeroBytesAreValid) {
   EXPECT_TRUE(IsValidUtf8(""));
   EXPECT_TRUE(IsValidUtf8(std::string("a\0b", 3)));

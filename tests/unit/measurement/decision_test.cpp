@@ -60,9 +60,11 @@ TEST(Decision, SaysTheMarginInWords) {
   for (const Worded& c :
        {Worded{-5, 1.8, 10, kGuarded, 3.2, "passes with 3.2 µm to spare beyond U"},
         Worded{8.6, 1.8, 10, kGuarded, -0.4,
-               "in doubt: 0.4 µm over the guard band; repeat with U of 1.4 µm or less to pass"},
-        Worded{10.5, 1.8, 10, kGuarded, -2.3,
-               "in doubt: 2.3 µm over the guard band; repeat with U of 0.5 µm or less to fail"},
+               "in doubt: 1.4 µm inside the limit, less than U; a repeat with U of 1.4 µm or less "
+               "passes"},
+        Worded{
+            10.5, 1.8, 10, kGuarded, -2.3,
+            "in doubt: 0.5 µm outside the limit, less than U; a repeat with U below 0.5 µm fails"},
         Worded{-13, 1.8, 10, kGuarded, -1.2, "fails: 1.2 µm outside beyond U"},
         Worded{9, 5, 10, kSimple, 1, "passes with 1.0 µm to spare"},
         Worded{12, 5, 10, kSimple, -2, "fails: 2.0 µm outside"},

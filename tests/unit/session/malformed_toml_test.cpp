@@ -99,7 +99,19 @@ INSTANTIATE_TEST_SUITE_P(
                   "revision = 3",
                   "revision = [3]",
                   "revision",
-                  {"document.revision is an array of 1 values", "wanted a text, number"}}),
+                  {"document.revision is an array of 1 values", "wanted a text, number"}},
+        Malformed{"GermanDate",
+                  kToml,
+                  "date = 2024-05-17",
+                  "date = \"17.05.2024\"",
+                  "date",
+                  {"document.date is", "wanted a date after ISO 8601 such as \"2026-01-17\""}},
+        Malformed{"NoSuchDay",
+                  kToml,
+                  "date = 2024-05-17",
+                  "issued = \"2024-02-30\"",
+                  "issued",
+                  {"document.issued is", "wanted a date after ISO 8601"}}),
     NameOf);
 
 INSTANTIATE_TEST_SUITE_P(

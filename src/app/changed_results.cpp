@@ -1,0 +1,40 @@
+#include "app/changed_results.h"
+
+#include "base/files.h"
+#include "report/audit/audit_trail.h"
+#include "report/audit/trail_files.h"
+
+namespace telestrain {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The entry "open" is that of `detect`.
+std::string VerbOf(const std::string& type) { return type == "open" ? "detect" : type; }
+
+}  // namespace
+
+std::vector<std::string> ChangesSinceRecorded(const fs::path& results) {
+  std::vector<std::string> sentences;
+  const fs::path trail = results / "audit.jsonl";
+  std::error_code code;
+  if (!fs::exists(trail, code)) return sentences;
+  const auto text = ReadFile(trail);
+  if (!text) return sentences;
+  const auto entries = ReadAuditTrail(trail.string(), *text);
+  if (!entries) return sentences;
+  const auto recorded = LatestOutputs(*entries);
+  for (const char* name : {"inputs.json", "detection.json", "calibration.json", "mrcal.json",
+                           "ruler.json", "strain.json"}) {
+    const auto known = recorded.find(name);
+    if (known == recorded.end() || !fs::exists(results / name, code)) continue;
+    const auto hash = Sha256HexOfFile(results / name);
+    if (hash && *hash != known->second.sha256)
+      sentences.push_back((results / name).string() + ": was changed since 'telestrain " +
+                          VerbOf((*entries)[known->second.entry].type) +
+                          "' wrote it; 'telestrain audit verify' will fail");
+  }
+  return sentences;
+}
+
+}  // namespace telestrain
