@@ -34,9 +34,8 @@ std::vector<LegendEntry> LegendOf(const Scene& scene) {
                      CountOf(static_cast<int>(scene.boards.size()), "board") + " in " +
                          CountOf(scene.target_poses, "pose")});
   if (scene.pipe)
-    entries.push_back(
-        {Sign::kBox, kPipeColor, 0.3,
-         "pipe, measured \u00d8 " + FormatFixed(scene.pipe->Diameter_mm(), 3) + " mm"});
+    entries.push_back({Sign::kBox, kPipeColor, 0.3,
+                       "pipe, mean \u00d8 " + FormatFixed(scene.pipe->Diameter_mm(), 3) + " mm"});
   else
     entries.push_back({Sign::kNone, {}, 1, "no pipe measured"});
   if (scene.pipe && !scene.pipe->gauges.empty())

@@ -101,7 +101,7 @@ Status AddFooter(Canvas* canvas, const Scene& scene) {
   using Sign = LegendEntry::Sign;
   std::vector<LegendEntry> entries{
       {Sign::kBox, kPipeColor, 0.3,
-       "nominal pipe; measured \u00d8 " + FormatFixed(pipe.Diameter_mm(), 3) + " mm"}};
+       "nominal pipe; mean \u00d8 " + FormatFixed(pipe.Diameter_mm(), 3) + " mm"}};
   if (longest_mm > 0)
     entries.push_back({Sign::kLine, kArrowColor, 1,
                        "displacement \u00d7 " + FormatShortest(DisplacementFactor(scene)) +

@@ -139,7 +139,7 @@ Status AddKey(Canvas* canvas, const Shown& shown, const PixelBox& box) {
   using Sign = LegendEntry::Sign;
   std::vector<LegendEntry> entries = {
       {Sign::kBox, kPipeColor, 0.3,
-       "pipe, measured \u00d8 " + FormatFixed(shown.pipe().Diameter_mm(), 3) + " mm"},
+       "pipe, mean \u00d8 " + FormatFixed(shown.pipe().Diameter_mm(), 3) + " mm"},
       {Sign::kLine, kInk, 1, "long base between patches"},
       {Sign::kNone,
        {},
