@@ -1,69 +1,17 @@
 #include <algorithm>
-#include <cctype>
-#include <cstdlib>
 
 #include "base/files.h"
 #include "base/json_file.h"
-#include "base/numbers.h"
 #include "report/acceptance_report.h"
+#include "report/declared_time.h"
 #include "report/layout_notes.h"
 #include "report/report_attachments.h"
 #include "report/report_blocks.h"
+#include "report/signature/utc_time.h"
 #include "report/table_block.h"
 
 namespace telestrain {
 namespace {
-
-constexpr long long kSecondsPerDay = 86400;
-
-std::string TwoDigits(long long value) {
-  return std::string(value < 10 ? "0" : "") + std::to_string(value);
-}
-
-// Days since 1970-01-01 as a PDF date (Hinnant's civil_from_days).
-std::string DateOfSeconds(long long seconds) {
-  const long long days = seconds / kSecondsPerDay + 719468;
-  const long long era = days / 146097, day_of_era = days % 146097;
-  const long long year_of_era =
-      (day_of_era - day_of_era / 1460 + day_of_era / 36524 - day_of_era / 146096) / 365;
-  const long long day_of_year =
-      day_of_era - (365 * year_of_era + year_of_era / 4 - year_of_era / 100);
-  const long long month_index = (5 * day_of_year + 2) / 153;
-  const long long month = month_index < 10 ? month_index + 3 : month_index - 9;
-  const long long year = year_of_era + era * 400 + (month <= 2 ? 1 : 0);
-  const long long time = seconds % kSecondsPerDay;
-  return "D:" + std::to_string(year) + TwoDigits(month) +
-         TwoDigits(day_of_year - (153 * month_index + 2) / 5 + 1) + TwoDigits(time / 3600) +
-         TwoDigits(time / 60 % 60) + TwoDigits(time % 60) + "Z";
-}
-
-// "2026-01-31" or "2026-01-31T10:14[:05][Z]" as a PDF date; empty when it is neither.
-std::string DateOfIso8601(const std::string& text) {
-  std::string digits;
-  constexpr const char* kPattern = "dddd-dd-ddTdd:dd:dd";
-  std::size_t i = 0;
-  for (; i < text.size() && kPattern[i] != '\0'; ++i) {
-    const bool is_digit = std::isdigit(static_cast<unsigned char>(text[i])) != 0;
-    if (kPattern[i] == 'd' ? !is_digit : text[i] != kPattern[i]) break;
-    if (is_digit) digits += text[i];
-  }
-  if (digits.size() < 8) return "";
-  const int month = std::stoi(digits.substr(4, 2)), day = std::stoi(digits.substr(6, 2));
-  if (month < 1 || month > 12 || day < 1 || day > 31) return "";
-  return "D:" + digits.substr(0, digits.size() / 2 * 2) +
-         std::string(14 - digits.size() / 2 * 2, '0') + "Z";
-}
-
-// Never the clock: the same results give the same bytes.
-std::string CreationDate(const Json& results) {
-  const std::string date = DateOfIso8601(TextAt(results, "/document/date"));
-  if (!date.empty()) return date;
-  const char* epoch = std::getenv("SOURCE_DATE_EPOCH");
-  const auto seconds = epoch ? ParseDouble(epoch) : std::nullopt;
-  return seconds && *seconds >= 0 && *seconds < 2.5e11
-             ? DateOfSeconds(static_cast<long long>(*seconds))
-             : "";
-}
 
 PdfInfo InfoOf(const ReportTemplate& layout, const Json& results, const Json& values) {
   PdfInfo info;
@@ -73,7 +21,8 @@ PdfInfo InfoOf(const ReportTemplate& layout, const Json& results, const Json& va
   info.subject = TextAt(results, "/title");
   info.creator = TextAt(results, "/inputs/program/name", "telestrain") + " " +
                  TextAt(results, "/inputs/program/version");
-  info.created = CreationDate(results);
+  const auto created_s = ParseIsoTime(DeclaredTime(EntryAt(results, "/document")));
+  if (created_s) info.created = PdfTime(*created_s);
   return info;
 }
 
@@ -91,13 +40,22 @@ double Beginning_pt(const ReportContext& context, const Json& block) {
                   kWholeShare * context.flow.PageBody_pt());
 }
 
-// A heading goes to the next page with the block that follows it.
+// A heading goes to the next page with what follows it, up to the first block that is no text.
 void KeepHeadingWithNext(const ReportContext& context, const Json& blocks, std::size_t i) {
-  constexpr double kHeading_pt = 34;
+  constexpr double kHeading_pt = 34, kBetweenTexts_pt = 6;
   if (TextAt(blocks[i], "/type") != "heading" || !IsWanted(context.results, blocks[i])) return;
-  for (++i; i < blocks.size(); ++i)
-    if (IsWanted(context.results, blocks[i]))
-      return context.flow.Require(kHeading_pt + Beginning_pt(context, blocks[i]));
+  double height_pt = kHeading_pt;
+  for (++i; i < blocks.size(); ++i) {
+    if (!IsWanted(context.results, blocks[i])) continue;
+    const bool is_text = TextAt(blocks[i], "/type") == "text";
+    height_pt +=
+        is_text ? context.flow.TextHeight_pt(context.flow.look().Body(), context.flow.width_pt(),
+                                             context.Fill(blocks[i], "text")) +
+                      kBetweenTexts_pt
+                : Beginning_pt(context, blocks[i]);
+    if (!is_text) break;
+  }
+  context.flow.Require(std::min(height_pt, context.flow.PageBody_pt()));
 }
 
 }  // namespace

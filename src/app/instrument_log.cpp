@@ -1,17 +1,14 @@
 #include "app/instrument_log.h"
 
-#include <fcntl.h>
 #include <pwd.h>
-#include <sys/file.h>
 #include <unistd.h>
 
 #include <array>
-#include <cerrno>
 #include <chrono>
-#include <cstring>
 #include <ctime>
 
 #include "app/program_record.h"
+#include "base/path_lock.h"
 #include "report/audit/audit_trail.h"
 
 namespace telestrain {
@@ -20,26 +17,9 @@ namespace {
 namespace fs = std::filesystem;
 
 // Held while the file is read and continued, so that two programs do not both follow one line.
-class FileLock {
- public:
-  static Result<FileLock> Take(const fs::path& file) {
-    FileLock lock(::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644));
-    if (lock.file_ < 0 || ::flock(lock.file_, LOCK_EX) != 0)
-      return OutputFailed(file.string() + ": the instrument's log cannot be opened: " +
-                          std::strerror(errno) + "; name another with --instrument-log");
-    return lock;
-  }
-  FileLock(FileLock&& other) noexcept : file_(std::exchange(other.file_, -1)) {}
-  FileLock(const FileLock&) = delete;
-  FileLock& operator=(const FileLock&) = delete;
-  ~FileLock() {
-    if (file_ >= 0) ::close(file_);
-  }
-
- private:
-  explicit FileLock(int file) : file_(file) {}
-  int file_;
-};
+Result<PathLock> Lock(const fs::path& file) {
+  return PathLock::Take(file, "name another log with --instrument-log");
+}
 
 // ISO 8601 in UTC with milliseconds.
 std::string ClockTime() {
@@ -105,7 +85,7 @@ Status CheckLog(const InstrumentLog& log) {
     return Error{ErrorKind::kUsage,
                  "--instrument-key signs the instrument's log; name it with --instrument-log"};
   }
-  TELESTRAIN_ASSIGN_OR_RETURN(const FileLock lock, FileLock::Take(log.file));
+  TELESTRAIN_ASSIGN_OR_RETURN(const PathLock lock, Lock(log.file));
   const auto trail = OpenLog(log);
   return trail ? Status() : Status(trail.error());
 }
@@ -123,7 +103,7 @@ Status LogRun(const InstrumentLog& log, const LoggedRun& run) {
                   {"exit_code", run.exit_code},
                   {"results", results.lexically_normal().string()},
                   {"trail_head", HeadOf(results)}};
-  TELESTRAIN_ASSIGN_OR_RETURN(const FileLock lock, FileLock::Take(log.file));
+  TELESTRAIN_ASSIGN_OR_RETURN(const PathLock lock, Lock(log.file));
   TELESTRAIN_ASSIGN_OR_RETURN(AuditTrail trail, OpenLog(log));
   TELESTRAIN_RETURN_IF_ERROR(trail.Append("run", body, ClockTime()));
   return trail.Sync();

@@ -1,7 +1,5 @@
 #include "app/sign_step.h"
 
-#include <fcntl.h>
-#include <sys/file.h>
 #include <termios.h>
 #include <unistd.h>
 
@@ -12,9 +10,9 @@
 #include <fstream>
 #include <iostream>
 #include <optional>
-#include <utility>
 
 #include "base/files.h"
+#include "base/path_lock.h"
 #include "base/utf8.h"
 #include "report/audit/audit_trail.h"
 #include "report/signature/sign_report.h"
@@ -26,29 +24,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMostPassword_bytes = 4096;
-
-// Held from reading the report until its trail tells of the signature, so that of two who sign at
-// once the second signs what the first made.
-class FolderLock {
- public:
-  static Result<FolderLock> Take(const fs::path& folder) {
-    FolderLock lock(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-    if (lock.folder_ < 0 || ::flock(lock.folder_, LOCK_EX) != 0)
-      return OutputFailed(folder.string() + ": cannot be locked for signing: " +
-                          std::strerror(errno) + "; sign in a folder of this machine");
-    return lock;
-  }
-  FolderLock(FolderLock&& other) noexcept : folder_(std::exchange(other.folder_, -1)) {}
-  FolderLock(const FolderLock&) = delete;
-  FolderLock& operator=(const FolderLock&) = delete;
-  ~FolderLock() {
-    if (folder_ >= 0) ::close(folder_);
-  }
-
- private:
-  explicit FolderLock(int folder) : folder_(folder) {}
-  int folder_;
-};
 
 std::string FirstLine(const std::string& text) {
   std::string line = text.substr(0, text.find('\n'));
@@ -164,8 +139,11 @@ Result<int> SignStep(const SignArguments& arguments, Console& console) {
   if (const auto readable = ReadFile(arguments.report); !readable) return readable.error();
   // A password may be asked for before others have to wait.
   TELESTRAIN_ASSIGN_OR_RETURN(const SigningKey key, KeyOf(arguments));
-  TELESTRAIN_ASSIGN_OR_RETURN(const FolderLock lock,
-                              FolderLock::Take(fs::absolute(target).parent_path()));
+  // Held until the trail tells of the signature: of two who sign at once the second signs what the
+  // first made.
+  TELESTRAIN_ASSIGN_OR_RETURN(
+      const PathLock lock,
+      PathLock::Take(fs::absolute(target).parent_path(), "sign in a folder of this machine"));
   TELESTRAIN_ASSIGN_OR_RETURN(auto trail, TrailBeside(fs::absolute(target)));
   TELESTRAIN_ASSIGN_OR_RETURN(const std::string before, ReadFile(arguments.report));
   TELESTRAIN_ASSIGN_OR_RETURN(const SignedReport signed_report,

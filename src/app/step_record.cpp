@@ -3,14 +3,13 @@
 #include <sys/stat.h>
 
 #include <algorithm>
-#include <array>
-#include <ctime>
 
 #include "app/program_record.h"
 #include "base/files.h"
 #include "base/json_file.h"
-#include "base/numbers.h"
+#include "base/path_lock.h"
 #include "report/audit/step_order.h"
+#include "report/declared_time.h"
 
 namespace telestrain {
 namespace {
@@ -67,19 +66,6 @@ Result<Json> OutputsOf(const StepRecord& step, const fs::path& results) {
   return outputs;
 }
 
-// The time that the session or its surroundings declare; never the clock's.
-std::string DeclaredTime(const Json& inputs_json) {
-  const std::string date = TextAt(inputs_json, "/document/date");
-  const char* epoch = std::getenv("SOURCE_DATE_EPOCH");
-  const auto seconds = epoch ? ParseDouble(epoch) : std::nullopt;
-  if (!date.empty() || !seconds || *seconds < 0 || *seconds > 2.5e11) return date;
-  const auto time = static_cast<std::time_t>(*seconds);
-  std::tm parts{};
-  ::gmtime_r(&time, &parts);
-  std::array<char, 64> text{};
-  return {text.data(), std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &parts)};
-}
-
 Result<AuditTrail> OpenTrail(const fs::path& results) {
   auto trail = AuditTrail::Open(results / kTrail);
   if (trail) return trail;
@@ -99,7 +85,6 @@ Status RecordStep(const fs::path& results, const StepRecord& step) {
   TELESTRAIN_ASSIGN_OR_RETURN(
       const Json inputs_json,
       ReadJson(results / "inputs.json", "telestrain.inputs/1", "telestrain detect"));
-  TELESTRAIN_ASSIGN_OR_RETURN(AuditTrail trail, OpenTrail(results));
   Json inputs = Json::array();
   TELESTRAIN_RETURN_IF_ERROR(AddFiles(step, results, inputs_json, inputs));
   TELESTRAIN_ASSIGN_OR_RETURN(Json outputs, OutputsOf(step, results));
@@ -108,8 +93,12 @@ Status RecordStep(const fs::path& results, const StepRecord& step) {
             {"inputs", std::move(inputs)},
             {"outputs", std::move(outputs)}};
   if (step.type == "open") body["session"] = TextAt(inputs_json, "/title");
+  TELESTRAIN_ASSIGN_OR_RETURN(const PathLock lock,
+                              PathLock::Take(results, "use an --out folder of this machine"));
+  TELESTRAIN_ASSIGN_OR_RETURN(AuditTrail trail, OpenTrail(results));
   if (IsRecorded(trail, step.type, body)) return {};
-  TELESTRAIN_RETURN_IF_ERROR(trail.Append(step.type, body, DeclaredTime(inputs_json)));
+  TELESTRAIN_RETURN_IF_ERROR(
+      trail.Append(step.type, body, DeclaredTime(EntryAt(inputs_json, "/document"))));
   return trail.Sync();
 }
 

@@ -1,0 +1,44 @@
+#include "base/path_lock.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <optional>
+#include <thread>
+
+#include "tests/unit/base/scratch_folder.h"
+
+namespace telestrain {
+namespace {
+
+TEST(PathLock, TheSecondWaitsUntilTheFirstIsGone) {
+  const ScratchFolder scratch("telestrain_path_lock_");
+  for (const auto& path : {scratch.path(), scratch.path() / "log.jsonl"}) {
+    auto taken = PathLock::Take(path, "none");
+    ASSERT_TRUE(taken.ok()) << taken.error().message;
+    std::optional<PathLock> first(std::move(taken).value());
+    std::atomic<bool> entered = false;
+    std::thread other([&] {
+      const auto second = PathLock::Take(path, "none");
+      EXPECT_TRUE(second.ok());
+      entered = true;
+    });
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    EXPECT_FALSE(entered) << path;
+    first.reset();
+    other.join();
+    EXPECT_TRUE(entered) << path;
+  }
+}
+
+TEST(PathLock, APlaceThatIsNotThereIsAnErrorWithTheRemedy) {
+  const auto lock = PathLock::Take("/nowhere/log.jsonl", "name another log");
+  ASSERT_FALSE(lock.ok());
+  EXPECT_EQ(lock.error().kind, ErrorKind::kOutputFailed);
+  EXPECT_EQ(lock.error().message,
+            "/nowhere/log.jsonl: cannot be locked: No such file or directory; name another log");
+}
+
+}  // namespace
+}  // namespace telestrain
