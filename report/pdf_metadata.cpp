@@ -1,8 +1,8 @@
 #include "report/pdf_metadata.h"
 
-#include <algorithm>
 #include <cctype>
 
+#include "report/signature/utc_time.h"
 #include "report/unicode_text.h"
 
 namespace telestrain {
@@ -20,13 +20,6 @@ std::string CleanText(const std::string& text) {
   }
   const std::size_t first = clean.find_first_not_of(' '), last = clean.find_last_not_of(' ');
   return first == std::string::npos ? "" : clean.substr(first, last - first + 1);
-}
-
-bool IsDate(const std::string& date) {
-  constexpr const char* kPattern = "D:ddddddddddddddZ";
-  return std::equal(date.begin(), date.end(), kPattern, kPattern + 17, [](char c, char wanted) {
-    return wanted == 'd' ? std::isdigit(static_cast<unsigned char>(c)) != 0 : c == wanted;
-  });
 }
 
 // RFC 3066: 1 to 8 letters, then parts of letters and digits; "en" for anything else.
@@ -102,29 +95,12 @@ constexpr const char* kPacketBegin =
  <rdf:Description rdf:about="" xmlns:dc="http://purl.org/dc/elements/1.1/" xmlns:xmp="http://ns.adobe.com/xap/1.0/" xmlns:pdf="http://ns.adobe.com/pdf/1.3/" xmlns:pdfaid="http://www.aiim.org/pdfa/ns/id/">
 )";
 
-}  // namespace
-
-PdfInfo CleanInfo(const PdfInfo& info) {
-  PdfInfo clean = info;
-  for (std::string* text :
-       {&clean.title, &clean.author, &clean.subject, &clean.keywords, &clean.creator})
-    *text = CleanText(*text);
-  if (clean.title.empty()) clean.title = "Report";
-  if (!IsDate(clean.created)) clean.created.clear();
-  clean.language = CleanLanguage(clean.language);
-  return clean;
-}
-
-std::string XmpDate(const PdfInfo& info) {
-  const std::string& d = info.created;
-  if (d.empty()) return "";
-  return d.substr(2, 4) + "-" + d.substr(6, 2) + "-" + d.substr(8, 2) + "T" + d.substr(10, 2) +
-         ":" + d.substr(12, 2) + ":" + d.substr(14, 2) + "Z";
-}
-
+// Of a clean info (ISO 16684-1; PDF/A and PDF/UA identification after ISO 19005-3, 6.6.4 and ISO
+// 14289-1, 5, with the extension schema that the latter needs in PDF/A).
 std::string XmpPacket(const PdfInfo& info, ArchiveLevel level) {
   const bool tagged = level == ArchiveLevel::k3a;
-  const std::string date = XmpDate(info);
+  const auto created_s = ParsePdfTime(info.created);
+  const std::string date = created_s ? IsoTime(*created_s) : "";
   std::string packet = kPacketBegin;
   packet += Element("pdfaid:part", tagged ? "3" : "1");
   packet += Element("pdfaid:conformance", tagged ? "A" : "B");
@@ -141,6 +117,19 @@ std::string XmpPacket(const PdfInfo& info, ArchiveLevel level) {
   packet += " </rdf:Description>\n";
   if (tagged) packet += kUniversalAccess;
   return packet + "</rdf:RDF></x:xmpmeta>\n<?xpacket end=\"r\"?>";
+}
+
+}  // namespace
+
+PdfInfo CleanInfo(const PdfInfo& info) {
+  PdfInfo clean = info;
+  for (std::string* text :
+       {&clean.title, &clean.author, &clean.subject, &clean.keywords, &clean.creator})
+    *text = CleanText(*text);
+  if (clean.title.empty()) clean.title = "Report";
+  if (!ParsePdfTime(clean.created)) clean.created.clear();
+  clean.language = CleanLanguage(clean.language);
+  return clean;
 }
 
 void WriteMetadata(PdfObjects& objects, HPDF_Doc document, const PdfInfo& info,

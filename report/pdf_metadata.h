@@ -14,13 +14,6 @@ namespace telestrain {
 // and language. `created` stays only if it is a PDF date "D:YYYYMMDDHHmmSSZ".
 PdfInfo CleanInfo(const PdfInfo& info);
 
-// The date of a clean info as XMP writes it, "2026-01-31T00:00:00Z"; empty without one.
-std::string XmpDate(const PdfInfo& info);
-
-// The XMP packet of a clean info (ISO 16684-1; PDF/A and PDF/UA identification after ISO 19005-3,
-// 6.6.4 and ISO 14289-1, 5, with the extension schema that the latter needs in PDF/A).
-std::string XmpPacket(const PdfInfo& info, ArchiveLevel level);
-
 // Writes information dictionary, XMP packet, language and viewer preferences into the document.
 void WriteMetadata(PdfObjects& objects, HPDF_Doc document, const PdfInfo& info, ArchiveLevel level);
 
