@@ -27,6 +27,7 @@ class Program {
  private:
   std::unique_ptr<CLI::App> app_;
   InstrumentLog log_;
+  bool as_json_ = false;
   std::vector<std::unique_ptr<Command>> commands_;
 };
 
