@@ -53,6 +53,7 @@ class AuditCommand : public Command {
     verify_ = &app;
     app.add_option("WHAT", question_.subject,
                    "report.pdf, results folder or the instrument's log (.jsonl)")
+        ->type_name(kPath)
         ->required();
     app.add_option("--trust", trusted_,
                    "certificates in PEM, roots or the signers' own, whose signatures count")
@@ -76,7 +77,8 @@ class AuditCommand : public Command {
         ->type_name(kFolder)
         ->required();
     app.add_option("--session", replay_choices_.session,
-                   "the session folder (default: where session.path says)");
+                   "the session folder (default: where session.path says)")
+        ->type_name(kFolder);
     app.add_option("--keep", replay_choices_.keep, "new folder to keep what is made again")
         ->type_name(kFolder);
   }
