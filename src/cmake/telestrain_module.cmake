@@ -26,6 +26,13 @@ function(telestrain_module name)
     PRIVATE $<BUILD_INTERFACE:telestrain_warnings> ${arg_PRIVATE})
 endfunction()
 
+# telestrain_alone(a.cpp …)
+# Sources that a unity build (CMAKE_UNITY_BUILD: eight are compiled at a time) takes
+# one by one: a name in their unnamed namespace stands in a neighbour as well.
+function(telestrain_alone)
+  set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+endfunction()
+
 # telestrain_test(NAME SOURCES a_test.cpp … LIBRARIES lib … [LABEL label] [TIMEOUT seconds])
 # Makes one GoogleTest program whose every test is known to ctest. A test's own code runs once, so
 # the compiler's time is saved on it.
