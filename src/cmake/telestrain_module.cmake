@@ -26,6 +26,11 @@ function(telestrain_module name)
     PRIVATE $<BUILD_INTERFACE:telestrain_warnings> ${arg_PRIVATE})
 endfunction()
 
+# telestrain_alone(a.cpp …)
+# Sources that a unity build (CMAKE_UNITY_BUILD: eight are compiled at a time) takes
+# one by one: a name in their unnamed namespace stands in a neighbour as well.
+function(telestrain_alone)
+  set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 set(TELESTRAIN_TIME_FACTOR 1 CACHE STRING
   "Factor on the time-outs of the tests, for builds that run slowly (sanitizers)")
 
