@@ -31,6 +31,8 @@ endfunction()
 # one by one: a name in their unnamed namespace stands in a neighbour as well.
 function(telestrain_alone)
   set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+endfunction()
+
 set(TELESTRAIN_TIME_FACTOR 1 CACHE STRING
   "Factor on the time-outs of the tests, for builds that run slowly (sanitizers)")
 
