@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "base/files.h"
+#include "base/late_library.h"
 #include "target/image_header.h"
 
 namespace telestrain {
@@ -34,12 +35,20 @@ Status CheckSize(const std::string& name, const ImageSize& found, const ImageSiz
   return {};
 }
 
+// cv::imdecode of a library that is loaded when it is needed.
+cv::Mat Imdecode(const cv::Mat& bytes) {
+  static const LateLibrary library(TELESTRAIN_IMGCODECS);
+  static auto* const imdecode =
+      library.Find<cv::Mat(const cv::_InputArray&, int)>("_ZN2cv8imdecodeERKNS_11_InputArrayEi");
+  return imdecode ? imdecode(bytes, cv::IMREAD_UNCHANGED) : cv::Mat();
+}
+
 // Empty when the bytes are no image.
 cv::Mat Decode(const std::string& bytes) {
   try {
     const cv::Mat input(1, static_cast<int>(bytes.size()), CV_8U,
                         const_cast<char*>(bytes.data()));  // only read
-    return cv::imdecode(input, cv::IMREAD_UNCHANGED);
+    return Imdecode(input);
   } catch (const cv::Exception&) {
     return {};
   }
@@ -94,5 +103,7 @@ Result<GrayImage> DecodeGrayImage(const std::string& name, const std::string& by
     return BadInput(name + ": the pixels are neither 8- nor 16-bit grey or colour" + kFormatRemedy);
   return std::move(*image);
 }
+
+void SetImageThreads(int threads) { cv::setNumThreads(threads); }
 
 }  // namespace telestrain
