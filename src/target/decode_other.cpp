@@ -3,6 +3,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <streambuf>
 
+#include "base/late_library.h"
 #include "target/pixel_decoders.h"
 
 namespace telestrain {
@@ -31,15 +32,31 @@ class QuietErrors {
   std::streambuf* const before_;
 };
 
+// cv::imdecode of a library that is loaded when it is needed, by its name there.
+const LateLibrary& Codecs() {
+  static const LateLibrary library(TELESTRAIN_IMGCODECS);
+  return library;
+}
+
+cv::Mat Imdecode(const cv::Mat& bytes) {
+  static auto* const imdecode =
+      Codecs().Find<cv::Mat(const cv::_InputArray&, int)>("_ZN2cv8imdecodeERKNS_11_InputArrayEi");
+  return imdecode ? imdecode(bytes, cv::IMREAD_UNCHANGED) : cv::Mat();
+}
+
 }  // namespace
 
 DecodedPixels DecodeOther(std::string_view bytes) {
   DecodedPixels decoded;
+  if (!Codecs().Failure().empty()) {
+    decoded.failure = "or cannot be decoded here: " + Codecs().Failure();
+    return decoded;
+  }
   try {
     const QuietErrors quiet;
     const cv::Mat input(1, static_cast<int>(bytes.size()), CV_8U,
                         const_cast<char*>(bytes.data()));  // only read
-    decoded.pixels = cv::imdecode(input, cv::IMREAD_UNCHANGED);
+    decoded.pixels = Imdecode(input);
   } catch (const cv::Exception&) {
     decoded.pixels.release();
   }

@@ -27,4 +27,7 @@ Result<GrayImage> ReadGrayImage(const std::filesystem::path& path, int width_px 
 Result<GrayImage> DecodeGrayImage(const std::string& name, const std::string& bytes,
                                   int width_px = 0, int height_px = 0);
 
+// How many threads OpenCV's functions may work on, in the whole process. Changes no pixel.
+void SetImageThreads(int threads);
+
 }  // namespace telestrain
