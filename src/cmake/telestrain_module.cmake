@@ -1,11 +1,11 @@
 # One place for how a module and a test program are built.
 include_guard(GLOBAL)
 
-# GCC 12 sees overlaps and lengths that are not there in `"text" + std::string` (GCC bug 105651).
+# GCC 12 sees an overlap that is not there in `"text" + std::string` (GCC bug 105651).
 add_library(telestrain_warnings INTERFACE)
 target_compile_options(telestrain_warnings INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor
-  -Wno-restrict -Wno-stringop-overflow
+  -Wno-restrict
   $<$<BOOL:${TELESTRAIN_WERROR}>:-Werror>)
 
 # Contracting a*b+c differs between compilers and CPUs; results must not.
@@ -14,18 +14,6 @@ target_compile_features(telestrain_settings INTERFACE cxx_std_20)
 target_compile_options(telestrain_settings INTERFACE -ffp-contract=off)
 target_include_directories(telestrain_settings INTERFACE
   "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>" "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>")
-
-# What most sources include is parsed once, which halves a build from nothing. A source with code
-# generation flags of its own takes SKIP_PRECOMPILE_HEADERS. The sources include what they use
-# nevertheless: the tidy preset builds without this.
-file(WRITE "${PROJECT_BINARY_DIR}/empty.cpp" "")
-set(common_headers <algorithm> <array> <cmath> <filesystem> <functional> <map> <memory> <numbers>
-  <optional> <set> <string> <vector> <Eigen/Cholesky> <Eigen/Core> <Eigen/Geometry> <Eigen/LU>
-  <nlohmann/json.hpp>)
-add_library(telestrain_headers OBJECT "${PROJECT_BINARY_DIR}/empty.cpp")
-target_link_libraries(telestrain_headers PRIVATE telestrain_settings telestrain_warnings
-  Eigen3::Eigen nlohmann_json::nlohmann_json)
-target_precompile_headers(telestrain_headers PRIVATE ${common_headers})
 
 # telestrain_module(NAME SOURCES a.cpp … [PUBLIC lib …] [PRIVATE lib …])
 # Makes the static library telestrain_NAME with the alias telestrain::NAME.
@@ -36,19 +24,29 @@ function(telestrain_module name)
   target_link_libraries(telestrain_${name}
     PUBLIC telestrain_settings ${arg_PUBLIC}
     PRIVATE $<BUILD_INTERFACE:telestrain_warnings> ${arg_PRIVATE})
-  target_precompile_headers(telestrain_${name} REUSE_FROM telestrain_headers)
 endfunction()
 
-function(telestrain_test_code target)
-  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
-  if(NOT TARGET telestrain_test_headers)
-    add_library(telestrain_test_headers OBJECT "${PROJECT_BINARY_DIR}/empty.cpp")
-    target_link_libraries(telestrain_test_headers PRIVATE telestrain_settings telestrain_warnings
-      Eigen3::Eigen nlohmann_json::nlohmann_json GTest::gtest)
-    target_compile_options(telestrain_test_headers PRIVATE $<$<CONFIG:Release>:-O1>)
-    target_precompile_headers(telestrain_test_headers PRIVATE ${common_headers} <gtest/gtest.h>)
-  endif()
-  target_precompile_headers(${target} REUSE_FROM telestrain_test_headers)
+# telestrain_alone(a.cpp …)
+# Sources that a unity build (CMAKE_UNITY_BUILD: eight are compiled at a time) takes
+# one by one: a name in their unnamed namespace stands in a neighbour as well.
+function(telestrain_alone)
+  set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+endfunction()
+
+set(TELESTRAIN_TIME_FACTOR 1 CACHE STRING
+  "Factor on the time-outs of the tests, for builds that run slowly (sanitizers)")
+
+# Called at the end of a folder of tests that names some by add_test(): the factor for those.
+# telestrain_test() has it already.
+function(telestrain_lengthen_time_outs)
+  get_property(tests DIRECTORY PROPERTY TESTS)
+  foreach(test IN LISTS tests)
+    get_property(seconds TEST "${test}" PROPERTY TIMEOUT)
+    if(seconds)
+      math(EXPR seconds "${seconds} * ${TELESTRAIN_TIME_FACTOR}")
+      set_property(TEST "${test}" PROPERTY TIMEOUT ${seconds})
+    endif()
+  endforeach()
 endfunction()
 
 # telestrain_test(NAME SOURCES a_test.cpp … LIBRARIES lib … [LABEL label] [TIMEOUT seconds])
@@ -59,13 +57,15 @@ function(telestrain_test name)
   if(NOT arg_TIMEOUT)
     set(arg_TIMEOUT 120)
   endif()
+  math(EXPR arg_TIMEOUT "${arg_TIMEOUT} * ${TELESTRAIN_TIME_FACTOR}")
+  math(EXPR discovery_seconds "60 * ${TELESTRAIN_TIME_FACTOR}")
   add_executable(${name} ${arg_SOURCES})
   target_link_libraries(${name} PRIVATE telestrain_settings telestrain_warnings
     ${arg_LIBRARIES} GTest::gtest GTest::gtest_main)
-  telestrain_test_code(${name})
+  target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
   target_compile_definitions(${name} PRIVATE
     TELESTRAIN_SOURCE_DIR="${PROJECT_SOURCE_DIR}" TELESTRAIN_BINARY_DIR="${PROJECT_BINARY_DIR}")
   include(GoogleTest)
-  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT ${discovery_seconds}
     PROPERTIES TIMEOUT ${arg_TIMEOUT} LABELS "${arg_LABEL}")
 endfunction()
