@@ -8,8 +8,12 @@ execute_process(COMMAND date --utc "--date=${TELESTRAIN_DATE}" "+%s"
 execute_process(COMMAND date --utc --rfc-email "--date=${TELESTRAIN_DATE}"
   OUTPUT_VARIABLE package_day OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
 
+# Else cpack builds all tests first. Who packs has built.
+set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)
+
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME telestrain)
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")  # it would stand before the summary of each package
 set(CPACK_PACKAGE_CONTACT "${TELESTRAIN_MAINTAINER}")
 set(CPACK_PACKAGE_DIRECTORY "${PROJECT_BINARY_DIR}/packages")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
