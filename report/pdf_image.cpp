@@ -4,6 +4,8 @@
 
 #include <memory>
 
+#include "base/parallel.h"
+
 namespace telestrain {
 namespace {
 
@@ -48,7 +50,7 @@ HPDF_Dict PdfImages::Add(RgbImage image) {
   objects_.SetNumber(object, "BitsPerComponent", 8);
   if (in_work_.size() == kMostInWork) FinishOldest();
   const auto pixels = std::make_shared<RgbImage>(std::move(image));
-  in_work_.push_back({object, std::async(std::launch::async, [pixels] {
+  in_work_.push_back({object, std::async(BesideOwnWork(), [pixels] {
                         const std::string rows = PredictRows(*pixels);
                         *pixels = {};
                         return Deflated(rows);

@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <mutex>
 
+#include "base/parallel.h"
 #include "viz/egl_context.h"
 #include "viz/gl_symbols.h"
 #include "viz/osmesa_context.h"
@@ -13,7 +14,7 @@ namespace {
 void SetMesaEnvironmentOnce() {
   static std::once_flag once;
   std::call_once(once, [] {
-    setenv("LP_NUM_THREADS", "2", 0);
+    setenv("LP_NUM_THREADS", DefaultThreads() > 1 ? "2" : "0", 0);
     setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);
   });
 }

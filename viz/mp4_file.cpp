@@ -1,6 +1,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstddef>
 #include <cstdlib>
 #include <cstring>
 #include <opencv2/core.hpp>
@@ -9,6 +10,7 @@
 
 #include "base/check.h"
 #include "base/files.h"
+#include "base/late_library.h"
 #include "viz/video_file.h"
 
 namespace telestrain::viz {
@@ -16,11 +18,55 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// cv::VideoWriter of a library that is loaded when a film is written. Its functions are called by
+// their names in the library, so that the program does not need them at its start.
+class LateWriter {
+ public:
+  LateWriter() : library_(TELESTRAIN_VIDEOIO) {
+    construct_ = library_.Find<Construct>(
+        "_ZN2cv11VideoWriterC1ERKNSt7__cxx1112basic_stringIcSt11char_traitsIcESaIcEEEiidNS_5Size_"
+        "IiEEb");
+    destroy_ = library_.Find<Destroy>("_ZN2cv11VideoWriterD1Ev");
+    is_opened_ = library_.Find<IsOpened>("_ZNK2cv11VideoWriter8isOpenedEv");
+    write_ = library_.Find<Write>("_ZN2cv11VideoWriter5writeERKNS_11_InputArrayE");
+  }
+  ~LateWriter() { Release(); }
+  LateWriter(const LateWriter&) = delete;
+  LateWriter& operator=(const LateWriter&) = delete;
+
+  const std::string& Failure() const { return library_.Failure(); }
+  bool Open(const std::string& file, int codec, double fps, const cv::Size& size) {
+    if (!construct_ || !destroy_ || !is_opened_ || !write_) return false;
+    construct_(place_, file, cv::CAP_FFMPEG, codec, fps, size, true);
+    is_there_ = true;
+    return is_opened_(place_);
+  }
+  void Add(const cv::Mat& frame) { write_(place_, frame); }
+  void Release() {
+    if (is_there_) destroy_(place_);
+    is_there_ = false;
+  }
+
+ private:
+  using Construct = void(void*, const std::string&, int, int, double, cv::Size, bool);
+  using Destroy = void(void*);
+  using IsOpened = bool(const void*);
+  using Write = void(void*, const cv::_InputArray&);
+
+  const LateLibrary library_;
+  Construct* construct_;
+  Destroy* destroy_;
+  IsOpened* is_opened_;
+  Write* write_;
+  alignas(cv::VideoWriter) std::byte place_[sizeof(cv::VideoWriter)];
+  bool is_there_ = false;
+};
+
 class Mp4File : public VideoFile {
  public:
   explicit Mp4File(fs::path path) : path_(std::move(path)) {}
   ~Mp4File() override {
-    writer_.release();
+    writer_.Release();
     std::error_code code;
     if (!part_.empty()) fs::remove(part_, code);
   }
@@ -28,10 +74,13 @@ class Mp4File : public VideoFile {
   Status Open(int width_px, int height_px, int fps) {
     TELESTRAIN_RETURN_IF_ERROR(MakePart());
     size_ = {width_px, height_px};
-    const int h264 = cv::VideoWriter::fourcc('a', 'v', 'c', '1');
+    if (!writer_.Failure().empty())
+      return OutputFailed(path_.string() + ": cannot be encoded: " + writer_.Failure() +
+                          "; a .gif needs none");
+    constexpr int kH264 = 'a' | 'v' << 8 | 'c' << 16 | '1' << 24;
     // OpenCV tells of a missing encoder on stderr only; the caller gets it as an error.
     const auto level = cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
-    const bool is_open = writer_.open(part_.string(), cv::CAP_FFMPEG, h264, fps, size_);
+    const bool is_open = writer_.Open(part_.string(), kH264, fps, size_);
     cv::utils::logging::setLogLevel(level);
     if (is_open) return {};
     return OutputFailed(path_.string() +
@@ -45,13 +94,13 @@ class Mp4File : public VideoFile {
     cv::Mat bgr(size_, CV_8UC3);
     for (std::size_t i = 0; i < frame.rgb.size(); i += 3)
       for (std::size_t c = 0; c < 3; ++c) bgr.data[i + c] = frame.rgb[i + 2 - c];
-    writer_.write(bgr);
+    writer_.Add(bgr);
     return {};
   }
 
   Status Close() override {
-    writer_.release();
-    TELESTRAIN_ASSIGN_OR_RETURN(const std::string bytes, ReadFile(part_));
+    writer_.Release();
+    TELESTRAIN_ASSIGN_OR_RETURN(const std::string bytes, ReadFile(part_, kMostResultBytes));
     if (bytes.empty()) return OutputFailed(path_.string() + ": the encoder wrote nothing");
     return WriteFileAtomically(path_, bytes);
   }
@@ -75,7 +124,7 @@ class Mp4File : public VideoFile {
 
   fs::path path_, part_;
   cv::Size size_;
-  cv::VideoWriter writer_;
+  LateWriter writer_;
 };
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "base/files.h"
+#include "base/parallel.h"
 #include "viz/picture_set.h"
 #include "viz/png_bytes.h"
 #include "viz/scaled_image.h"
@@ -29,7 +30,7 @@ class Series {
       Status drawn;
       std::optional<RgbImage> next;
       // All drawing stays on this thread: the OpenGL context is current on it.
-      auto encoded = std::async([&] { return last_ ? Encode() : Status(); });
+      auto encoded = std::async(BesideOwnWork(), [&] { return last_ ? Encode() : Status(); });
       if (i < planned.size()) drawn = DrawOne(planned[i], next);
       TELESTRAIN_RETURN_IF_ERROR(encoded.get());
       TELESTRAIN_RETURN_IF_ERROR(drawn);

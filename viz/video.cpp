@@ -6,6 +6,7 @@
 #include <future>
 
 #include "base/numbers.h"
+#include "base/parallel.h"
 #include "viz/picture_set.h"
 #include "viz/scene/scene_colors.h"
 #include "viz/scene_from_results.h"
@@ -69,8 +70,9 @@ Status Shoot(const std::vector<Shot>& shots, viz::VideoFile& film) {
     Status drawn;
     std::optional<viz::RgbImage> next;
     // All drawing stays on this thread: the OpenGL context is current on it.
-    auto encoded =
-        std::async([&] { return last ? AddFrames(film, *last, shots[i - 1].frames) : Status(); });
+    auto encoded = std::async(BesideOwnWork(), [&] {
+      return last ? AddFrames(film, *last, shots[i - 1].frames) : Status();
+    });
     if (i < shots.size()) {
       auto picture = shots[i].draw();
       if (picture)

@@ -66,6 +66,8 @@ int Main(int argc, char** argv) {
   Command* command = program.Chosen();
   if (!command) return kUsageExit;
   Console console(std::cout, std::cerr, ::isatty(STDERR_FILENO) != 0);
+  if (const Status applied = program.settings().Apply(); !applied)
+    return Report(command->Name(), applied.error(), console);
   return RunCommand(*command, *app.get_subcommand(command->Name()), program.log(),
                     {{}, {argv + 1, argv + argc}, {}, 0}, console);
 }

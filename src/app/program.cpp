@@ -74,6 +74,7 @@ Program::Program() : app_(std::make_unique<CLI::App>()), commands_(AllCommands()
   app_->require_subcommand(1);
   app_->footer(Footer());
   AddLogOptions(*app_, log_);
+  settings_.AddTo(*app_);
   for (const auto& command : commands_) {
     CLI::App* verb = app_->add_subcommand(command->Name(), command->Summary());
     verb->footer("Example: " + command->Example());

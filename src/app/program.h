@@ -6,6 +6,7 @@
 
 #include "app/command.h"
 #include "app/instrument_log.h"
+#include "app/process_settings.h"
 
 namespace telestrain {
 
@@ -19,6 +20,7 @@ class Program {
   CLI::App& app() { return *app_; }
   const CLI::App& app() const { return *app_; }
   const InstrumentLog& log() const { return log_; }
+  const ProcessSettings& settings() const { return settings_; }
   // Sorted as the program's help lists them.
   std::vector<std::string> Verbs() const;
   // The verb that the parsed line asks for; null when it asks for none.
@@ -28,6 +30,7 @@ class Program {
   std::unique_ptr<CLI::App> app_;
   InstrumentLog log_;
   bool as_json_ = false;
+  ProcessSettings settings_;
   std::vector<std::unique_ptr<Command>> commands_;
 };
 

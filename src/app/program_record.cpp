@@ -5,6 +5,9 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "base/parallel.h"
+#include "correlation/kernels.h"
+
 namespace telestrain {
 
 using Json = nlohmann::ordered_json;
@@ -32,7 +35,9 @@ Json HostRecord() {
   return {{"name", system.nodename},
           {"system", std::string(system.sysname) + " " + system.release},
           {"architecture", system.machine},
-          {"vector_instructions", instructions}};
+          {"vector_instructions", instructions},
+          {"vector_level", correlation::NameOf(correlation::ActiveVectorLevel())},
+          {"threads", DefaultThreads()}};
 }
 
 }  // namespace telestrain

@@ -19,14 +19,15 @@
 namespace telestrain {
 namespace {
 
-// Threads beside the caller's, on a machine of fewer cores.
-constexpr int kMostWorkers = 64;
+// Threads beside the caller's.
+constexpr int kMostWorkers = kMostThreads - 1;
 // Waking a sleeping thread costs tens of microseconds, so waiting starts awake.
 constexpr std::chrono::microseconds kAwake{20};
 
 thread_local bool inside_a_call = false;
 
-int Cores() { return static_cast<int>(std::max(1u, std::thread::hardware_concurrency())); }
+// 0: not set.
+std::atomic<int> default_threads{0};
 
 // Returns whether `done` came true while awake.
 template <class Done>
@@ -89,7 +90,7 @@ class ThreadPool {
   bool HasItsThreads() const { return process_ == getpid(); }
 
   void Run(int helpers, Job& job) {
-    Announce(std::min(helpers, std::max(kMostWorkers, Cores())), job);
+    Announce(std::min(helpers, kMostWorkers), job);
     job.Run();
     std::unique_lock lock(mutex_);
     jobs_.remove(&job);
@@ -176,10 +177,24 @@ ThreadPool& Pool() {
 
 }  // namespace
 
+int DefaultThreads() {
+  // Of the processors that the process may use, as hardware_concurrency() counts them.
+  static const int cores =
+      std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, kMostThreads);
+  const int threads = default_threads;
+  return threads > 0 ? threads : cores;
+}
+
+void SetDefaultThreads(int threads) { default_threads = std::clamp(threads, 1, kMostThreads); }
+
+std::launch BesideOwnWork() {
+  return DefaultThreads() > 1 ? std::launch::async : std::launch::deferred;
+}
+
 void ParallelFor(int count, int threads, const std::function<void(int)>& work) {
   if (count <= 0) return;
   Job job(count, work);
-  const int most = std::min(threads > 0 ? threads : Cores(), count);
+  const int most = std::min(threads > 0 ? threads : DefaultThreads(), count);
   if (most == 1 || inside_a_call || !Pool().HasItsThreads()) {
     job.Run();
   } else {

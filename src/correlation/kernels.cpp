@@ -1,7 +1,5 @@
 #include "correlation/kernels.h"
 
-#include <initializer_list>
-
 namespace telestrain::correlation {
 namespace {
 
@@ -25,12 +23,38 @@ Kernels KernelsOf(VectorLevel level) {
   return PlainKernels();
 }
 
-Kernels& Active() {
-  static Kernels kernels = KernelsOf(BestVectorLevel());
-  return kernels;
+struct Chosen {
+  explicit Chosen(VectorLevel chosen) : level(chosen), kernels(KernelsOf(chosen)) {}
+  VectorLevel level;
+  Kernels kernels;
+};
+
+Chosen& Choice() {
+  static Chosen chosen(BestVectorLevel());
+  return chosen;
 }
 
+const Kernels& Active() { return Choice().kernels; }
+
 }  // namespace
+
+std::string NameOf(VectorLevel level) {
+  switch (level) {
+    case VectorLevel::kAvx512:
+      return "avx512";
+    case VectorLevel::kAvx2:
+      return "avx2";
+    case VectorLevel::kPlain:
+      break;
+  }
+  return "plain";
+}
+
+std::optional<VectorLevel> VectorLevelOf(std::string_view name) {
+  for (const VectorLevel level : kVectorLevels)
+    if (name == NameOf(level)) return level;
+  return std::nullopt;
+}
 
 VectorLevel BestVectorLevel() {
   for (VectorLevel level : {VectorLevel::kAvx512, VectorLevel::kAvx2})
@@ -40,9 +64,11 @@ VectorLevel BestVectorLevel() {
 
 bool SetVectorLevel(VectorLevel level) {
   if (!Has(level)) return false;
-  Active() = KernelsOf(level);
+  Choice() = Chosen(level);
   return true;
 }
+
+VectorLevel ActiveVectorLevel() { return Choice().level; }
 
 const Kernels& ActiveKernels() { return Active(); }
 

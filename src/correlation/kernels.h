@@ -1,6 +1,10 @@
 #pragma once
 
 #include <cstddef>
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <string_view>
 
 #include "correlation/subset_moments.h"
 
@@ -9,9 +13,17 @@ namespace telestrain::correlation {
 // Instruction sets that the passes are compiled for. AVX2 (with FMA) and AVX-512 give the same
 // bits; the plain level has no fused operations and differs in the last digits.
 enum class VectorLevel { kPlain, kAvx2, kAvx512 };
+inline constexpr auto kVectorLevels = {VectorLevel::kPlain, VectorLevel::kAvx2,
+                                       VectorLevel::kAvx512};
+
+// plain, avx2, avx512.
+std::string NameOf(VectorLevel level);
+std::optional<VectorLevel> VectorLevelOf(std::string_view name);
 
 // The best that this machine has.
 VectorLevel BestVectorLevel();
+// What the passes use: the best one until another is set.
+VectorLevel ActiveVectorLevel();
 // Makes all passes use the level, for tests and benchmarks, before any other thread works. False
 // (and nothing changed) where the machine lacks it.
 bool SetVectorLevel(VectorLevel level);

@@ -6,6 +6,7 @@
 #include <memory>
 #include <utility>
 
+#include "base/parallel.h"
 #include "target/image_file.h"
 
 namespace telestrain {
@@ -112,7 +113,7 @@ class StreamMeasurement {
   }
 
   Waiting Fetch() {
-    return std::async(std::launch::async, [this] { return stream_.Next(); });
+    return std::async(BesideOwnWork(), [this] { return stream_.Next(); });
   }
 
   Status Take(PipeImage& image) {

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <vector>
 
 #include "base/parallel.h"
@@ -18,15 +16,6 @@ constexpr std::size_t kBlock = 65536;  // pixels that one thread reads out in on
 // Read noise in levels of the format, so that noise and quantisation add up to `total_levels`.
 double ReadNoise(double total_levels) {
   return std::sqrt(std::max(0.0, total_levels * total_levels - 1.0 / 12.0));
-}
-
-template <typename Level>
-cv::Mat LevelsOf(const GrayImage& image) {
-  cv::Mat levels(image.height, image.width, cv::traits::Type<Level>::value);
-  for (int y = 0; y < image.height; ++y)
-    for (int x = 0; x < image.width; ++x)
-      levels.at<Level>(y, x) = static_cast<Level>(image.At(x, y));
-  return levels;
 }
 
 }  // namespace
@@ -56,20 +45,6 @@ GrayImage ReadOut(const GrayImage& ideal, const SensorModel& sensor, std::uint64
     }
   });
   return image;
-}
-
-Result<std::string> EncodePng(const GrayImage& image) {
-  try {
-    const cv::Mat levels =
-        image.max_gray > 255 ? LevelsOf<std::uint16_t>(image) : LevelsOf<std::uint8_t>(image);
-    std::vector<std::uint8_t> bytes;
-    // OpenCV's own choice is its fastest, and noise compresses no better with the others.
-    if (!cv::imencode(".png", levels, bytes))
-      return OutputFailed("PNG encoding failed; OpenCV was built without PNG");
-    return std::string(bytes.begin(), bytes.end());
-  } catch (const cv::Exception& e) {
-    return OutputFailed(std::string("PNG encoding failed: ") + e.what());
-  }
 }
 
 }  // namespace telestrain

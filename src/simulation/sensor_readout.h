@@ -1,10 +1,8 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 
 #include "base/gray_image.h"
-#include "base/result.h"
 
 namespace telestrain {
 
@@ -23,8 +21,5 @@ struct SensorModel {
 // 16). Every pixel's noise follows from `key` and its place, whatever the number of threads.
 GrayImage ReadOut(const GrayImage& ideal, const SensorModel& sensor, std::uint64_t key,
                   int threads = 1);
-
-// PNG bytes of an image of whole grey levels; 16 bits when max_gray is above 255.
-Result<std::string> EncodePng(const GrayImage& image);
 
 }  // namespace telestrain

@@ -8,6 +8,7 @@
 #include "base/json_file.h"
 #include "base/parallel.h"
 #include "simulation/experiment_truth.h"
+#include "simulation/gray_png.h"
 #include "simulation/image_conditions.h"
 #include "simulation/nominal_session.h"
 #include "simulation/pipe_image.h"

@@ -9,6 +9,7 @@
 
 #include "measurement/pipe_measurement.h"
 #include "simulation/experiment_truth.h"
+#include "simulation/gray_png.h"
 #include "simulation/nominal_session.h"
 #include "simulation/pipe_image.h"
 #include "simulation/sensor_readout.h"

@@ -5,6 +5,7 @@
 
 #include <chrono>
 
+#include "simulation/gray_png.h"
 #include "simulation/load_case.h"
 #include "simulation/nominal_session.h"
 #include "simulation/pipe_image.h"

@@ -66,7 +66,7 @@ TEST_F(BadInput, AValueOfTheWrongKindIsNamedWithItsLine) {
 }
 
 TEST_F(BadInput, LeavesEarlierResultsAsTheyAre) {
-  MustRun({"detect"});
+  TakeRun({"detect"});
   const auto before = BytesBelow(results());
   KeepBytes("ruler/ruler_002.png", 90000);
   EXPECT_EQ(Run("run").exit_code, 3);
@@ -74,7 +74,7 @@ TEST_F(BadInput, LeavesEarlierResultsAsTheyAre) {
 }
 
 TEST_F(BadInput, ResultsOfAnotherSessionAreStale) {
-  MustRun({"detect"});
+  TakeRun({"detect"});
   const auto before = BytesBelow(results());
   Replace("session.toml", "sigma_mm = 0.005", "sigma_mm = 0.006");
   for (const std::string verb : {"calibrate", "verify", "measure"}) {
@@ -87,7 +87,7 @@ TEST_F(BadInput, ResultsOfAnotherSessionAreStale) {
 }
 
 TEST_F(BadInput, ResultsOfAnotherImageAreStale) {
-  MustRun({"detect", "calibrate"});
+  TakeRun({"detect", "calibrate"});
   MakeBlank("pipe/pipe_001.png");
   for (const std::string verb : {"calibrate", "measure"}) {
     const ProgramRun run = Run(verb);
@@ -102,7 +102,7 @@ TEST_F(BadInput, AStepWithoutTheStepBeforeSaysWhichOneIsMissing) {
   EXPECT_EQ(early.exit_code, 3);
   EXPECT_NE(early.err.find("run 'telestrain detect' first"), std::string::npos) << early.err;
   EXPECT_FALSE(std::filesystem::exists(results()));
-  MustRun({"detect"});
+  TakeRun({"detect"});
   for (const std::string verb : {"verify", "measure"}) {
     const ProgramRun run = Run(verb);
     EXPECT_EQ(run.exit_code, 3) << verb;

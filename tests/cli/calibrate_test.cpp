@@ -26,7 +26,7 @@ class CalibrateVerb : public SessionCopy {
   }
   // The corners that the detector finds, as a file outside the results folder.
   fs::path CornersFile() const {
-    MustRun({"detect"});
+    TakeRun({"detect"});
     const fs::path file = scratch() / "given.vnl";
     fs::copy_file(results() / "corners.vnl", file);
     fs::remove_all(results());
@@ -59,14 +59,14 @@ TEST_F(CalibrateVerb, CornersOfAnotherPlaceAreBadInputWithTheLine) {
 }
 
 TEST_F(CalibrateVerb, TheResultsOwnCornersAreNotGivenToItself) {
-  MustRun({"detect"});
+  TakeRun({"detect"});
   const ProgramRun run = Calibrate({"--corners", (results() / "corners.vnl").string()});
   EXPECT_EQ(run.exit_code, 2) << run.out;
   EXPECT_TRUE(fs::exists(results() / "corners.vnl"));
 }
 
 TEST_F(CalibrateVerb, ComparedWithItselfNothingMoved) {
-  MustRun({"detect", "calibrate"});
+  TakeRun({"detect", "calibrate"});
   const fs::path old_file = results() / "calibration.json";
   const std::string hash = Sha256Hex(ReadAll(old_file));
   const ProgramRun run = Calibrate({"--compare", old_file.string()});
@@ -76,21 +76,21 @@ TEST_F(CalibrateVerb, ComparedWithItselfNothingMoved) {
 }
 
 TEST_F(CalibrateVerb, AnEarlierCalibrationThatIsMissingLeavesTheResultsAlone) {
-  MustRun({"detect", "calibrate"});
+  TakeRun({"detect", "calibrate"});
   const auto before = BytesBelow(results());
   EXPECT_EQ(Calibrate({"--compare", (scratch() / "none.json").string()}).exit_code, 3);
   EXPECT_EQ(BytesBelow(results()), before);
 }
 
 TEST_F(CalibrateVerb, WeighingKeepsEveryCorner) {
-  MustRun({"detect"});
+  TakeRun({"detect"});
   const ProgramRun run = Calibrate({"--outliers", "weigh"});
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_TRUE(Holds(ReadAll(results() / "calibration.json"), "weighed down (Cauchy)"));
 }
 
 TEST_F(CalibrateVerb, RunTakesTheSameChoices) {
-  MustRun({"detect", "calibrate"});
+  TakeRun({"detect", "calibrate"});
   const fs::path old_file = scratch() / "earlier.json";
   fs::copy_file(results() / "calibration.json", old_file);
   const ProgramRun run = RunTelestrain({"run", session().string(), "--out", results().string(),
@@ -101,7 +101,7 @@ TEST_F(CalibrateVerb, RunTakesTheSameChoices) {
 }
 
 TEST_F(CalibrateVerb, CulledRegionsAreLeftOutAndListed) {
-  MustRun({"detect"});
+  TakeRun({"detect"});
   const ProgramRun run =
       Calibrate({"--cull", "0,0,160,486", "--outliers", "mrcal", "--board-warp"});
   ASSERT_EQ(run.exit_code, 0) << run.err;
@@ -120,7 +120,7 @@ TEST_F(CalibrateVerb, CulledRegionsAreLeftOutAndListed) {
 }
 
 TEST_F(CalibrateVerb, ARegionThatIsNoneIsWrongUsage) {
-  MustRun({"detect"});
+  TakeRun({"detect"});
   for (const char* region : {"0,0,160", "0,0,160,486,7", "0,0,160,wide", "0,0,0,486"}) {
     const ProgramRun run = Calibrate({"--cull", region});
     EXPECT_EQ(run.exit_code, 2) << region << run.out;

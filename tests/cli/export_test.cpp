@@ -48,7 +48,7 @@ cv::Vec2d ProjectAsDocumented(const cv::FileNode& view, const cv::Vec3d& point) 
 }
 
 TEST_F(Export, OpensInOpenCvAndInMrcalAndBothProjectAlike) {
-  MustRun({"detect", "calibrate"});
+  TakeRun({"detect", "calibrate"});
   const ProgramRun run = RunExport(out());
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_TRUE(run.out.starts_with("export     A1.cameramodel ")) << run.out;
@@ -81,7 +81,7 @@ TEST_F(Export, OpensInOpenCvAndInMrcalAndBothProjectAlike) {
 }
 
 TEST_F(Export, CornersAreThoseThatTheCalibrationUsed) {
-  MustRun({"detect", "calibrate"});
+  TakeRun({"detect", "calibrate"});
   ASSERT_EQ(RunExport(out()).exit_code, 0);
   std::istringstream used(ReadAll(out() / "corners.vnl"));
   const std::string all = ReadAll(results() / "corners.vnl");
@@ -96,7 +96,7 @@ TEST_F(Export, CornersAreThoseThatTheCalibrationUsed) {
 }
 
 TEST_F(Export, WritesTheSceneForProgramsThatShowAndMeasureIt) {
-  MustRun({"detect", "calibrate", "measure"});
+  TakeRun({"detect", "calibrate", "measure"});
   const std::vector<std::string> words = {
       "export", results().string(), "--out", out().string(), "--format", "glb,paraview,stl,ply"};
   const ProgramRun run = RunTelestrain(words);
@@ -115,7 +115,7 @@ TEST_F(Export, WritesTheSceneForProgramsThatShowAndMeasureIt) {
 }
 
 TEST_F(Export, ParaViewPiecesOfAnEarlierExportGoAndOtherFilesStay) {
-  MustRun({"detect", "calibrate"});
+  TakeRun({"detect", "calibrate"});
   const std::vector<std::string> words = {"export",       results().string(), "--out",
                                           out().string(), "--format",         "paraview"};
   ASSERT_EQ(RunTelestrain(words).exit_code, 0);
@@ -132,7 +132,7 @@ TEST_F(Export, ParaViewPiecesOfAnEarlierExportGoAndOtherFilesStay) {
 }
 
 TEST_F(Export, UsageErrorsNameWhatThereIsAndWriteNothing) {
-  MustRun({"detect", "calibrate", "measure"});
+  TakeRun({"detect", "calibrate", "measure"});
   const auto run = [&](std::vector<std::string> more) {
     more.insert(more.begin(), {"export", results().string(), "--out", out().string()});
     return RunTelestrain(more);
@@ -154,7 +154,7 @@ TEST_F(Export, BadInputSaysWhatToDo) {
   const ProgramRun none = RunExport(out());
   EXPECT_EQ(none.exit_code, 3) << none.err;
   EXPECT_FALSE(fs::exists(out()));
-  MustRun({"detect", "calibrate"});
+  TakeRun({"detect", "calibrate"});
   const ProgramRun unmeasured =
       RunTelestrain({"export", results().string(), "--out", out().string(), "--format", "glb,stl"});
   EXPECT_EQ(unmeasured.exit_code, 3) << unmeasured.err;

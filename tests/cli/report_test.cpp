@@ -52,7 +52,7 @@ TEST_F(ReportVerb, ListsLayoutsAndLanguagesBuiltInAndOwn) {
 
 // What is asked wrongly must not cost the report that is there.
 TEST_F(ReportVerb, UsageErrorsNameTheRemedyAndKeepTheOldReport) {
-  MustRun({"detect", "calibrate"});
+  TakeRun({"detect", "calibrate"});
   MustWrite({});
   const std::string before = ReadAll(results() / "report.pdf");
   ExpectUsageError(Report({"--template", "calibraton"}), "did you mean 'calibration'");
@@ -67,7 +67,7 @@ TEST_F(ReportVerb, UsageErrorsNameTheRemedyAndKeepTheOldReport) {
 
 // The sentences are the program's own here, not those of a fixture.
 TEST_F(ReportVerb, NothingOfARealReportIsLeftInEnglish) {
-  MustRun({"detect", "calibrate"});
+  TakeRun({"detect", "calibrate"});
   MustWrite({});
   const fs::path earlier = scratch() / "earlier";
   fs::copy(results(), earlier, fs::copy_options::recursive);
@@ -86,7 +86,7 @@ TEST_F(ReportVerb, NothingOfARealReportIsLeftInEnglish) {
 
 // A layout of one's own that does not draw the hashes gets them: the report can be verified.
 TEST_F(ReportVerb, EveryLayoutPrintsWhatAuditVerifyCompares) {
-  MustRun({"detect", "calibrate"});
+  TakeRun({"detect", "calibrate"});
   const fs::path own = scratch() / "own";
   fs::create_directories(own);
   std::ofstream(own / "incoming.json")
@@ -103,7 +103,7 @@ TEST_F(ReportVerb, EveryLayoutPrintsWhatAuditVerifyCompares) {
 }
 
 TEST_F(ReportVerb, WarnsOfAFileThatWasChangedSinceItsStep) {
-  MustRun({"detect", "calibrate"});
+  TakeRun({"detect", "calibrate"});
   EXPECT_EQ(MustWrite({}).err.find("was changed"), std::string::npos);
   std::ofstream(results() / "calibration.json", std::ios::app) << " ";
   EXPECT_NE(MustWrite({}).err.find("calibration.json: was changed since 'telestrain calibrate' "

@@ -3,6 +3,8 @@
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
 
+#include "cli/kept_run.h"
+
 namespace telestrain::testing_support {
 namespace {
 
@@ -55,6 +57,14 @@ void SessionCopy::MustRun(std::initializer_list<std::string> verbs) const {
     const ProgramRun run = Run(verb);
     ASSERT_EQ(run.exit_code, 0) << verb << ": " << run.err;
   }
+}
+
+void SessionCopy::TakeRun(const std::vector<std::string>& verbs) const {
+  const KeptRun kept = KeptRunOf(verbs);
+  ASSERT_EQ(kept.run.exit_code, 0) << kept.run.err;
+  ASSERT_FALSE(fs::exists(results_));
+  fs::copy(kept.folder / "results", results_, fs::copy_options::recursive);
+  WriteAll(results_ / "session.path", session_.string() + "\n");
 }
 
 void SessionCopy::ExpectBadInput(std::initializer_list<std::string> parts) const {

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "cli/program_run.h"
 #include "unit/base/scratch_folder.h"
@@ -32,6 +33,9 @@ class SessionCopy : public ::testing::Test {
   ProgramRun Run(const std::string& verb) const;
   // Runs the verbs in turn; each must end with 0.
   void MustRun(std::initializer_list<std::string> verbs) const;
+  // The results of the verbs from the small session, copied from those kept for all tests; only for
+  // a session that was not changed yet and a results folder that is not there.
+  void TakeRun(const std::vector<std::string>& verbs) const;
   // Expects exit code 3, every one of `parts` in the message and nothing in the results folder.
   void ExpectBadInput(std::initializer_list<std::string> parts) const;
 

@@ -36,7 +36,7 @@ class SignVerb : public SessionCopy {
 };
 
 TEST_F(SignVerb, SignsReplacesTheFileAndRecordsItInTheTrail) {
-  MustRun({"run"});
+  TakeRun({"run"});
   const std::string before = ReadAll(Report());
   std::ofstream(results() / "audit.jsonl", std::ios::app);  // `run` writes one, or it is empty
   const ProgramRun run =
@@ -67,7 +67,7 @@ TEST_F(SignVerb, SignsReplacesTheFileAndRecordsItInTheTrail) {
 }
 
 TEST_F(SignVerb, KeepsPermissionsAndLinksAndTellsTheTrailBesideTheSignedFile) {
-  MustRun({"run"});
+  TakeRun({"run"});
   const auto sign = [&](const std::string& report, const std::string& out = "") {
     std::vector<std::string> words = {
         "sign",  report,           "--role",          "operator",
@@ -95,7 +95,7 @@ TEST_F(SignVerb, KeepsPermissionsAndLinksAndTellsTheTrailBesideTheSignedFile) {
 }
 
 TEST_F(SignVerb, SignsNothingBesideADamagedTrail) {
-  MustRun({"run"});
+  TakeRun({"run"});
   const std::string before = ReadAll(Report());
   std::ofstream(results() / "audit.jsonl", std::ios::app) << "no line of a trail\n";
   const ProgramRun run = RunTelestrain(Words(
@@ -106,7 +106,7 @@ TEST_F(SignVerb, SignsNothingBesideADamagedTrail) {
 
 // Instrument and operator at once: whoever comes second signs what the first made, or is refused.
 TEST_F(SignVerb, TwoAtOnceLoseNoSignature) {
-  MustRun({"run"});
+  TakeRun({"run"});
   const auto words = [&](const char* role) {
     return Words({"--role", role, "--p12", File("both.p12"), "--password-file", File("password")});
   };

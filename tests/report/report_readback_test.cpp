@@ -6,7 +6,7 @@
 #include <set>
 
 #include "base/numbers.h"
-#include "cli/program_run.h"
+#include "cli/kept_run.h"
 #include "dcc_reader.h"
 #include "pdf_tools.h"
 #include "report_reading.h"
@@ -38,14 +38,9 @@ class ReportReadback : public ::testing::Test {
   }
   // The committed session through the program itself.
   void RunSmallSession() const {
-    using namespace testing_support;
-    const std::string session = SmallSession().string(), results = folder_.string();
-    for (const std::string verb : {"detect", "calibrate", "verify", "measure"}) {
-      const ProgramRun run = RunTelestrain({verb, session, "--out", results});
-      ASSERT_EQ(run.exit_code, 0) << verb << ": " << run.err;
-    }
-    const ProgramRun run = RunTelestrain({"diagnose", results});
-    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const auto kept = testing_support::KeptRunOf({"run"});
+    ASSERT_EQ(kept.run.exit_code, 0) << kept.run.err;
+    fs::copy(kept.folder / "results", folder_, fs::copy_options::recursive);
   }
   void ExpectEverythingPrinted() const {
     for (const ReportCase& report : AllReportCases()) {

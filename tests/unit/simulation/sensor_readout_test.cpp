@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "simulation/gray_png.h"
+
 namespace telestrain {
 namespace {
 
