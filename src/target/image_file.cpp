@@ -104,6 +104,6 @@ Result<GrayImage> DecodeGrayImage(const std::string& name, const std::string& by
   return std::move(*image);
 }
 
-void SetImageThreads(int threads) { cv::setNumThreads(threads); }
+void KeepImagesOnOneThread() { cv::setNumThreads(1); }
 
 }  // namespace telestrain
