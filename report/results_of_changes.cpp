@@ -136,9 +136,9 @@ ChangeCount AddQuantityChanges(const EarlierResults& earlier, ResultsDraft& draf
 Json NameOf(const EarlierResults& earlier) {
   const std::string number =
       TextAt(earlier.results, "/document/number",
-             TextAt(earlier.results, "/document/report_number", earlier.file).c_str());
-  const std::string date = TextAt(earlier.results, "/document/issued",
-                                  TextAt(earlier.results, "/document/date").c_str());
+             TextAt(earlier.results, "/document/report_number", earlier.file));
+  const std::string date =
+      TextAt(earlier.results, "/document/issued", TextAt(earlier.results, "/document/date"));
   if (date.empty()) return number;
   return Phrase("{{number}} of {{date}}", {{"number", number}, {"date", date}});
 }

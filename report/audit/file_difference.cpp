@@ -14,8 +14,12 @@ using Json = nlohmann::ordered_json;
 constexpr std::size_t kLongestValue = 60;
 
 std::string Shortened(std::string text) {
-  if (text.size() > kLongestValue) text = text.substr(0, kLongestValue) + "…";
-  return text;
+  if (text.size() <= kLongestValue) return text;
+  std::size_t end = kLongestValue;
+  const auto continues = [&] { return (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80; };
+  while (end > 0 && continues()) --end;  // a character of UTF-8 stays whole
+  text.resize(end);
+  return text + "…";
 }
 
 std::string ValueText(const Json& value) {

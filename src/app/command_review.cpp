@@ -8,6 +8,7 @@
 #include "base/files.h"
 #include "base/json_file.h"
 #include "base/numbers.h"
+#include "base/value_names.h"
 #include "viz/picture_set.h"
 #include "viz/review/results_shape.h"
 #include "viz/review/review_page.h"
@@ -37,7 +38,7 @@ Result<std::vector<viz::ReviewPicture>> ReadPictures(const fs::path& folder) {
     for (const std::string& name : names) {
       const bool of_state = kind.of_every_state && name.starts_with(stem + "_");
       if (kind.draw == nullptr || (name != stem + ".png" && !of_state)) continue;
-      TELESTRAIN_ASSIGN_OR_RETURN(std::string png, ReadFile(folder / name));
+      TELESTRAIN_ASSIGN_OR_RETURN(std::string png, ReadFile(folder / name, kMostImageBytes));
       pictures.push_back({name, std::move(png)});
     }
   }
@@ -95,8 +96,11 @@ class ReviewCommand : public Command {
   }
   std::string Example() const override { return "telestrain review results"; }
   void AddOptions(CLI::App& app) override {
-    app.add_option("RESULTS", results_, "results folder of the earlier steps")->required();
-    app.add_option("--out", out_, "the file to write (default: RESULTS/review.html)");
+    app.add_option("RESULTS", results_, "results folder of the earlier steps")
+        ->type_name(kFolder)
+        ->required();
+    app.add_option("--out", out_, "the file to write (default: RESULTS/review.html)")
+        ->type_name(kFile);
   }
   Result<int> Run(Console& console) override {
     const fs::path path = out_.empty() ? fs::path(results_) / "review.html" : fs::path(out_);

@@ -5,15 +5,13 @@
 #include <exception>
 #include <iostream>
 
+#include "app/exit_codes.h"
 #include "app/instrument_log.h"
 #include "app/program.h"
 #include "base/numbers.h"
 
 namespace telestrain {
 namespace {
-
-constexpr int kUsageExit = 2;
-constexpr int kDefectExit = 70;
 
 // Says what failed and gives its exit code.
 int Report(const std::string& verb, const Error& error, Console& console) {

@@ -1,14 +1,27 @@
 #include "app/program.h"
 
 #include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "app/exit_codes.h"
+#include "app/version_text.h"
+#include "base/value_names.h"
 
 namespace telestrain {
 namespace {
 
-constexpr const char* kFooter =
-    "Exit codes: 0 accepted, 1 measured but not accepted, 2 wrong usage, 3 bad input data,\n"
-    "4 estimation failed, 5 rendering or report failed, 70 a defect of the program.\n"
-    "Help for one verb: telestrain VERB --help";
+std::string Footer() {
+  std::string text = "Exit codes:";
+  std::size_t line = 0;  // where the last one begins
+  for (const ExitCode& exit : kExitCodes) {
+    const std::string item = std::to_string(exit.code) + " " + exit.meaning;
+    constexpr std::size_t kWidth = 90;
+    const bool breaks = text.size() - line + item.size() + 2 > kWidth;
+    if (breaks) line = text.size() + 1;
+    text += (breaks ? "\n" : " ") + item + (exit.code == kDefectExit ? "." : ",");
+  }
+  return text + "\nHelp for one verb: telestrain VERB --help";
+}
 
 std::vector<std::unique_ptr<Command>> AllCommands() {
   std::vector<std::unique_ptr<Command>> commands;
@@ -34,10 +47,20 @@ std::vector<std::unique_ptr<Command>> AllCommands() {
 void AddLogOptions(CLI::App& app, InstrumentLog& log) {
   app.add_option("--instrument-log", log.file,
                  "log of the instrument: every run adds a line, who did what when")
+      ->type_name(kFile)
       ->envname("TELESTRAIN_INSTRUMENT_LOG");
   app.add_option("--instrument-key", log.key_file,
                  "Ed25519 key in PEM that signs the lines of the log")
+      ->type_name(kFile)
       ->envname("TELESTRAIN_INSTRUMENT_KEY");
+}
+
+// The options are read in their order, so --json is known when --version speaks.
+void AddVersionOptions(CLI::App& app, bool& as_json) {
+  auto* json = app.add_flag("--json", as_json, "--version as JSON");
+  json->needs(app.set_version_flag(
+      "--version", [&as_json] { return as_json ? VersionRecord().dump(2) : VersionText(); },
+      "what this program is, a fact a line, and exit"));
 }
 
 }  // namespace
@@ -47,9 +70,9 @@ Program::Program() : app_(std::make_unique<CLI::App>()), commands_(AllCommands()
       "telestrain calibrates a telecentric four-view camera array, proves it on a ruler, measures\n"
       "the strain of a pipe with it and writes the PDF acceptance report.");
   app_->name("telestrain");
-  app_->set_version_flag("--version", "telestrain " TELESTRAIN_VERSION);
+  AddVersionOptions(*app_, as_json_);
   app_->require_subcommand(1);
-  app_->footer(kFooter);
+  app_->footer(Footer());
   AddLogOptions(*app_, log_);
   settings_.AddTo(*app_);
   for (const auto& command : commands_) {

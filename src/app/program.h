@@ -29,6 +29,7 @@ class Program {
  private:
   std::unique_ptr<CLI::App> app_;
   InstrumentLog log_;
+  bool as_json_ = false;
   ProcessSettings settings_;
   std::vector<std::unique_ptr<Command>> commands_;
 };

@@ -88,6 +88,12 @@ TEST(TellAuditTest, NamesCannotWriteLinesOfTheirOwn) {
             std::vector<std::string>{"  1  A\\x0a  2  B\\x1b[2J signed report.pdf as operator."});
 }
 
+TEST(FileDifferenceTest, LongTextIsCutBetweenCharacters) {
+  const std::string kept(59, 'a');  // of 60 bytes, the last of which would begin an ä
+  EXPECT_EQ(FirstDifference("a.csv", kept + "äb", "c"),
+            "line 1 is '" + kept + "…', made again 'c'");
+}
+
 TEST(FileDifferenceTest, DeepJsonIsComparedAsText) {
   const std::string deep(1000000, '[');
   EXPECT_TRUE(FirstDifference("a.json", deep + std::string(1000000, ']'), deep + "1")
