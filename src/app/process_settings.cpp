@@ -42,7 +42,7 @@ void ProcessSettings::AddTo(CLI::App& app) {
 
 Status ProcessSettings::Apply() const {
   if (threads > 0) SetDefaultThreads(threads);
-  SetImageThreads(DefaultThreads());
+  KeepImagesOnOneThread();
   CallIfThere("omp_set_num_threads", DefaultThreads());
   CallIfThere("openblas_set_num_threads", 1);
   if (vector_level.empty()) return {};
