@@ -24,6 +24,12 @@ std::string FirstWord(const std::string& line) {
   return Trimmed(line).substr(0, Trimmed(line).find(' '));
 }
 
+// A command of the document, not a message such as "telestrain run: …".
+bool IsCommand(const std::string& line) {
+  const std::string text = Trimmed(line), rest = text.substr(FirstWord(text).size());
+  return IsCommandWord(FirstWord(text)) && !FirstWord(rest).ends_with(':');
+}
+
 // A block of code with the comment that stood before it.
 struct Block {
   int line = 0;  // of its first line
@@ -52,7 +58,7 @@ std::vector<ShownCommand> CommandsOf(const Block& block) {
     if (Trimmed(line).empty()) continue;
     if (continues)
       commands.back().command += " " + Trimmed(line);
-    else if (IsCommandWord(FirstWord(line)))
+    else if (IsCommand(line))
       commands.push_back(CommandOf(line, block.line + static_cast<int>(i)));
     else if (commands.empty())
       return {};
@@ -212,27 +218,28 @@ bool DescribesFrom(const std::vector<std::string>& shown, std::size_t i,
 }  // namespace
 
 bool IsCommandWord(const std::string& word) {
-  static const std::set<std::string> words = {"telestrain",
-                                              "telestrain-view",
-                                              "build/release/telestrain",
-                                              "bash",
-                                              "cmake",
-                                              "ctest",
-                                              "apt",
-                                              "apt-get",
-                                              "dpkg",
-                                              "openssl",
-                                              "mkdir",
-                                              "cp",
-                                              "mv",
-                                              "rm",
-                                              "sed",
-                                              "sudo",
-                                              "ls",
-                                              "head",
-                                              "man",
-                                              "printf",
-                                              "export"};
+  static const std::set<std::string> words = {
+      "telestrain",
+      "telestrain-view",
+      "build/release/telestrain",
+      "bash",
+      "cmake",
+      "ctest",
+      "apt",
+      "apt-get",
+      "dpkg",
+      "openssl",
+      "mkdir",
+      "cp",
+      "mv",
+      "rm",
+      "sed",
+      "sudo",
+      "ls",
+      "head",
+      "man",
+      "printf",
+  };
   return words.contains(word);
 }
 

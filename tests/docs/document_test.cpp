@@ -19,7 +19,8 @@ Document Read(const std::string& text) {
 
 TEST(Document, FindsCommandsAndTheirOutput) {
   const Document page = Read(
-      "# A page\n\n    telestrain run a --out b   # exit code 3\n\n    refused\n\ntext\n\n"
+      "# A page\n\n    telestrain run a --out b   # exit code 3\n\n    telestrain run: "
+      "refused\n\ntext\n\n"
       "```\ntelestrain simulate \\\n  --out c\n```\n\n```toml\nkey = 1\n```\n");
   ASSERT_EQ(page.commands.size(), 2U);
   EXPECT_EQ(page.commands[0].command, "telestrain run a --out b");

@@ -36,9 +36,14 @@ const Document& Named(const std::string& name) {
   throw std::runtime_error("no document " + name);
 }
 
+const std::string& Help() {
+  static const std::string text = RunTelestrain({"--help"}).out;
+  return text;
+}
+
 std::vector<std::string> Verbs() {
   std::vector<std::string> verbs;
-  std::istringstream help(RunTelestrain({"--help"}).out);
+  std::istringstream help(Help());
   bool listed = false;
   for (std::string line; std::getline(help, line);) {
     std::smatch verb;
@@ -131,7 +136,7 @@ std::set<std::string> OptionsIn(const std::string& text) {
 std::string HelpOf(const std::string& verb) {
   static std::map<std::string, std::string> helps;
   if (!helps.contains(verb)) {
-    std::string text = RunTelestrain({verb, "--help"}).out + RunTelestrain({"--help"}).out;
+    std::string text = RunTelestrain({verb, "--help"}).out + Help();
     if (verb == "audit")
       for (const char* part : {"verify", "replay", "show"})
         text += RunTelestrain({verb, part, "--help"}).out;
