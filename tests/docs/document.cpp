@@ -218,29 +218,28 @@ bool DescribesFrom(const std::vector<std::string>& shown, std::size_t i,
 }  // namespace
 
 bool IsCommandWord(const std::string& word) {
-  static const std::set<std::string> words = {
-      "telestrain",
-      "telestrain-view",
-      "build/release/telestrain",
-      "bash",
-      "cmake",
-      "ctest",
-      "apt",
-      "apt-get",
-      "dpkg",
-      "openssl",
-      "mkdir",
-      "cp",
-      "mv",
-      "rm",
-      "sed",
-      "sudo",
-      "ls",
-      "head",
-      "man",
-      "printf",
-  };
-  return words.contains(word);
+  static const std::set<std::string> words = {"telestrain",
+                                              "telestrain-view",
+                                              "build/release/telestrain",
+                                              "bash",
+                                              "cmake",
+                                              "ctest",
+                                              "apt",
+                                              "apt-get",
+                                              "dpkg",
+                                              "openssl",
+                                              "mkdir",
+                                              "cp",
+                                              "mv",
+                                              "rm",
+                                              "sed",
+                                              "sudo",
+                                              "ls",
+                                              "head",
+                                              "man",
+                                              "printf"};
+};
+return words.contains(word);
 }
 
 Document ReadDocument(const fs::path& path) {
