@@ -2,6 +2,7 @@
 
 #include "app/audit_replay.h"
 #include "app/command.h"
+#include "base/value_names.h"
 #include "report/audit/tell_audit.h"
 #include "report/audit/verify_audit.h"
 #include "report/signature/certificate.h"
@@ -36,6 +37,7 @@ class AuditCommand : public Command {
     AddReplay(*app.add_subcommand("replay", "run the recorded steps again and compare every byte"));
     show_ = app.add_subcommand("show", "tell in plain words what was done");
     show_->add_option("WHAT", subject_, "results folder, report.pdf or the instrument's log")
+        ->type_name(kPath)
         ->required();
   }
   Result<int> Run(Console& console) override {
@@ -51,25 +53,34 @@ class AuditCommand : public Command {
     verify_ = &app;
     app.add_option("WHAT", question_.subject,
                    "report.pdf, results folder or the instrument's log (.jsonl)")
+        ->type_name(kPath)
         ->required();
     app.add_option("--trust", trusted_,
                    "certificates in PEM, roots or the signers' own, whose signatures count")
+        ->type_name(kFile)
         ->envname("TELESTRAIN_TRUST");
     app.add_option("--require", question_.trust.required_roles,
                    "role that must have signed; may be repeated")
         ->check(CLI::IsMember({"instrument", "operator", "reviewer", "approver"}));
     app.add_option("--session", question_.session,
-                   "the session folder (default: where session.path says)");
-    app.add_option("--log", question_.log, "the instrument's log, which must tell of the results");
+                   "the session folder (default: where session.path says)")
+        ->type_name(kFolder);
+    app.add_option("--log", question_.log, "the instrument's log, which must tell of the results")
+        ->type_name(kFile);
     app.add_option("--public-key", question_.public_key,
-                   "key in PEM by which every line of the log must be signed");
+                   "key in PEM by which every line of the log must be signed")
+        ->type_name(kFile);
   }
   void AddReplay(CLI::App& app) {
     replay_ = &app;
-    app.add_option("RESULTS", replay_choices_.results, "results folder")->required();
+    app.add_option("RESULTS", replay_choices_.results, "results folder")
+        ->type_name(kFolder)
+        ->required();
     app.add_option("--session", replay_choices_.session,
-                   "the session folder (default: where session.path says)");
-    app.add_option("--keep", replay_choices_.keep, "new folder to keep what is made again");
+                   "the session folder (default: where session.path says)")
+        ->type_name(kFolder);
+    app.add_option("--keep", replay_choices_.keep, "new folder to keep what is made again")
+        ->type_name(kFolder);
   }
   Result<int> Verify(Console& console) {
     question_.trust.certificates.assign(trusted_.begin(), trusted_.end());

@@ -2,6 +2,7 @@
 
 #include "app/command.h"
 #include "base/files.h"
+#include "base/value_names.h"
 #include "optics/rig_design_output.h"
 #include "session/session_rig.h"
 #include "simulation/nominal_session.h"
@@ -35,18 +36,23 @@ class DesignCommand : public Command {
   void AddOptions(CLI::App& app) override {
     app.add_option("SESSION", session_,
                    "session folder or session.toml whose views are given by mirrors [the paper's "
-                   "array]");
-    app.add_option("--out", out_, "folder for design.json and rays.png; made when it is not there");
+                   "array]")
+        ->type_name(kPath);
+    app.add_option("--out", out_, "folder for design.json and rays.png; made when it is not there")
+        ->type_name(kFolder);
     app.add_option("--numerical-aperture", options_.numerical_aperture,
                    "on the object side [the largest with the lens' depth of field]")
+        ->type_name("NA")
         ->check(CLI::Range(1e-4, 0.5));
     app.add_option("--mirror-margin-mm", options_.mirror_margin_mm,
                    "added to every side of a mirror; negative for smaller ones")
+        ->type_name(kMillimetres)
         ->check(CLI::Range(-1000.0, 1000.0))
         ->capture_default_str();
     app.add_option("--mirror-size-mm", sizes_mm_,
                    "width and height of every path's first mirror, then of its second, … [as the "
                    "light needs]")
+        ->type_name(kMillimetres)
         ->type_size(2)
         ->expected(0, 16)
         ->check(CLI::Range(1e-3, 1e4));

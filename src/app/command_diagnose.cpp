@@ -2,6 +2,7 @@
 
 #include "app/command.h"
 #include "app/steps.h"
+#include "base/value_names.h"
 
 // telestrain diagnose RESULTS
 //   diagnose   The residuals are noise. mrcal agrees to 5.0e-10 px.
@@ -20,7 +21,9 @@ class DiagnoseCommand : public Command {
   }
   std::string Example() const override { return "telestrain diagnose results"; }
   void AddOptions(CLI::App& app) override {
-    app.add_option("RESULTS", results_, "results folder with a calibration")->required();
+    app.add_option("RESULTS", results_, "results folder with a calibration")
+        ->type_name(kFolder)
+        ->required();
   }
   Result<int> Run(Console& console) override { return DiagnoseStep(results_, true, console); }
 

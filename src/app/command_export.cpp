@@ -7,6 +7,7 @@
 #include "app/export_files.h"
 #include "app/results_folder.h"
 #include "app/step_record.h"
+#include "base/value_names.h"
 #include "diagnostics/interchange.h"
 #include "viz/export/scene_files.h"
 #include "viz/scene_from_results.h"
@@ -41,13 +42,18 @@ class ExportCommand : public Command {
     return "telestrain export results --out scene --format glb,paraview --state 3";
   }
   void AddOptions(CLI::App& app) override {
-    app.add_option("RESULTS", results_, "results folder of a calibration")->required();
+    app.add_option("RESULTS", results_, "results folder of a calibration")
+        ->type_name(kFolder)
+        ->required();
     app.add_option("--out", out_,
-                   "folder for the files; made when it does not exist. Needed without --dcc");
+                   "folder for the files; made when it does not exist. Needed without --dcc")
+        ->type_name(kFolder);
     app.add_option("--dcc", certificate_,
-                   "file for the digital calibration certificate (DCC 3.3.0) of results.json");
+                   "file for the digital calibration certificate (DCC 3.3.0) of results.json")
+        ->type_name(kFile);
     app.add_option("--dcc-schema", schema_,
-                   "folder with dcc.xsd and its catalog.xml, to check the certificate against");
+                   "folder with dcc.xsd and its catalog.xml, to check the certificate against")
+        ->type_name(kFolder);
     app.add_option("--format", formats_,
                    "one or more, separated by commas. calibration: .cameramodel and corners.vnl "
                    "for mrcal, opencv.yaml. glb: scene.glb (glTF 2.0). paraview: scene.vtm with "
@@ -59,10 +65,12 @@ class ExportCommand : public Command {
     app.add_option("--state", state_,
                    "which state of the pipe goes into glb, stl and ply: its number from 0, its "
                    "image or 'largest'")
+        ->type_name("STATE")
         ->capture_default_str();
     app.add_option("--quantity", quantity_,
                    "what colours the surface in glb: a point array of pipe_NNN.vtp "
-                   "(default: axial strain)");
+                   "(default: axial strain)")
+        ->type_name("QUANTITY");
   }
   Result<int> Run(Console& console) override {
     TELESTRAIN_RETURN_IF_ERROR(CheckOptions());

@@ -6,6 +6,7 @@
 #include "app/step_options.h"
 #include "app/step_record.h"
 #include "app/steps.h"
+#include "base/value_names.h"
 
 // telestrain render RESULTS
 //   render     pictures in results/pictures
@@ -25,7 +26,9 @@ class RenderCommand : public Command {
            "a.png";
   }
   void AddOptions(CLI::App& app) override {
-    app.add_option("RESULTS", results_, "results folder of the earlier steps")->required();
+    app.add_option("RESULTS", results_, "results folder of the earlier steps")
+        ->type_name(kFolder)
+        ->required();
     arguments_.AddTo(app);
   }
   Result<int> Run(Console& console) override {

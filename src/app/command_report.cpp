@@ -2,6 +2,7 @@
 
 #include "app/command.h"
 #include "app/steps.h"
+#include "base/value_names.h"
 #include "report/template_list.h"
 
 // telestrain report RESULTS
@@ -33,16 +34,20 @@ class ReportCommand : public Command {
            "  telestrain report results --template reverification --against last_year/report.pdf";
   }
   void AddOptions(CLI::App& app) override {
-    app.add_option("RESULTS", results_, "results folder of the earlier steps");
+    app.add_option("RESULTS", results_, "results folder of the earlier steps")->type_name(kFolder);
     app.add_option("--template", choices_.layout,
                    "layout: acceptance, calibration, reverification, strain, or one of your own")
+        ->type_name(Among({"acceptance", "calibration", "reverification", "strain"}))
         ->capture_default_str();
     app.add_option("--language", choices_.language, "language of the texts: en, de, zh")
+        ->type_name(Among({"en", "de", "zh"}))
         ->capture_default_str();
     app.add_option("--templates", templates_,
-                   "folder with your own layouts and texts; what it lacks is built in");
+                   "folder with your own layouts and texts; what it lacks is built in")
+        ->type_name(kFolder);
     app.add_option("--against", against_,
-                   "earlier results folder or report.pdf that a re-verification compares with");
+                   "earlier results folder or report.pdf that a re-verification compares with")
+        ->type_name(kPath);
     app.add_option("--archive-level", level_,
                    "PDF/A level: 3a (tagged, with attachments and signature fields) or 1b")
         ->capture_default_str()

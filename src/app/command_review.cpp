@@ -8,6 +8,7 @@
 #include "base/files.h"
 #include "base/json_file.h"
 #include "base/numbers.h"
+#include "base/value_names.h"
 #include "viz/picture_set.h"
 #include "viz/review/results_shape.h"
 #include "viz/review/review_page.h"
@@ -95,8 +96,11 @@ class ReviewCommand : public Command {
   }
   std::string Example() const override { return "telestrain review results"; }
   void AddOptions(CLI::App& app) override {
-    app.add_option("RESULTS", results_, "results folder of the earlier steps")->required();
-    app.add_option("--out", out_, "the file to write (default: RESULTS/review.html)");
+    app.add_option("RESULTS", results_, "results folder of the earlier steps")
+        ->type_name(kFolder)
+        ->required();
+    app.add_option("--out", out_, "the file to write (default: RESULTS/review.html)")
+        ->type_name(kFile);
   }
   Result<int> Run(Console& console) override {
     const fs::path path = out_.empty() ? fs::path(results_) / "review.html" : fs::path(out_);

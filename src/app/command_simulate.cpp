@@ -2,6 +2,7 @@
 
 #include "app/command.h"
 #include "base/numbers.h"
+#include "base/value_names.h"
 #include "simulation/virtual_experiment.h"
 
 // telestrain simulate --out SESSION
@@ -10,6 +11,15 @@
 
 namespace telestrain {
 namespace {
+
+// "PX" for px; "%" says nothing where a value is wanted.
+std::string ValueName(std::string unit) {
+  if (unit.empty()) return kCount;
+  if (unit.front() == '%') unit.replace(0, 1, "PERCENT");
+  for (char& c : unit)
+    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+  return unit;
+}
 
 class SimulateCommand : public Command {
  public:
@@ -23,13 +33,16 @@ class SimulateCommand : public Command {
   }
   void AddOptions(CLI::App& app) override {
     app.add_option("--out", out_, "session folder to write; must not hold a session yet")
+        ->type_name(kFolder)
         ->required();
-    app.add_option("--truth", truth_, "file for the truth [--out with -truth.json]");
+    app.add_option("--truth", truth_, "file for the truth [--out with -truth.json]")
+        ->type_name(kFile);
     for (const VirtualExperimentOptionInfo& info : VirtualExperimentOptionTable())
       std::visit([&](auto member) { AddOption(app, info, options_.*member); }, info.member);
     app.add_option("--document", document_,
                    "KEY=TEXT: an entry of [document] in session.toml, as date=2026-01-31; may be "
-                   "repeated");
+                   "repeated")
+        ->type_name("KEY=TEXT");
   }
   Result<int> Run(Console& console) override {
     TELESTRAIN_RETURN_IF_ERROR(ReadDocument());
@@ -55,7 +68,9 @@ class SimulateCommand : public Command {
     if constexpr (!std::is_same_v<T, bool>)
       help += std::string(" (") + info.unit + (*info.unit != '\0' ? ", " : "") +
               FormatShortest(info.minimum) + " to " + FormatShortest(info.maximum) + ")";
-    app.add_option(flag, value, help)->capture_default_str();
+    app.add_option(flag, value, help)
+        ->type_name(std::is_same_v<T, bool> ? "BOOLEAN:{true,false}" : ValueName(info.unit))
+        ->capture_default_str();
   }
 
   Status ReadDocument() {

@@ -3,6 +3,7 @@
 
 #include "app/command.h"
 #include "base/json_file.h"
+#include "base/value_names.h"
 #include "report/study_report.h"
 #include "study/study.h"
 
@@ -15,6 +16,12 @@
 
 namespace telestrain {
 namespace {
+
+std::vector<std::string> StudyNames() {
+  std::vector<std::string> names;
+  for (const StudyInfo& info : AllStudies()) names.push_back(info.name);
+  return names;
+}
 
 class StudyCommand : public Command {
  public:
@@ -31,17 +38,25 @@ class StudyCommand : public Command {
     return text + "\nExit codes: 0 every limit is met, 1 one is not";
   }
   void AddOptions(CLI::App& app) override {
-    app.add_option("STUDY", name_, "which study; the list stands below")->required();
-    app.add_option("--out", out_, "folder for study.json, study.pdf and the sessions")->required();
+    app.add_option("STUDY", name_, "which study; the list stands below")
+        ->type_name(Among(StudyNames()))
+        ->required();
+    app.add_option("--out", out_, "folder for study.json, study.pdf and the sessions")
+        ->type_name(kFolder)
+        ->required();
     app.add_option("--seed", options_.seed, "number that all randomness follows from")
+        ->type_name(kCount)
         ->capture_default_str();
     app.add_option("--share", options_.share,
                    "share of the full number of images, poses and states (0.02 to 1)")
+        ->type_name("SHARE")
         ->capture_default_str();
     app.add_option("--binning", options_.binning,
                    "pixels binned along each side where images are rendered (1 to 4)")
+        ->type_name(kCount)
         ->capture_default_str();
     app.add_option("--threads", options_.threads, "threads; 0: one per core")
+        ->type_name(kCount)
         ->capture_default_str();
   }
   Result<int> Run(Console& console) override {

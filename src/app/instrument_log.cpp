@@ -7,7 +7,9 @@
 #include <chrono>
 #include <ctime>
 
+#include "app/build_record.h"
 #include "app/program_record.h"
+#include "app/version_text.h"
 #include "base/path_lock.h"
 #include "report/audit/audit_trail.h"
 
@@ -94,7 +96,10 @@ Status LogRun(const InstrumentLog& log, const LoggedRun& run) {
   if (log.file.empty()) return {};
   std::error_code code;
   const fs::path results = run.results.empty() ? fs::path() : fs::absolute(run.results, code);
-  const Json body{{"program", ProgramRecord()},
+  Json program = ProgramRecord();
+  program["revision"] = kBuildRecord.revision;
+  program["build_id"] = BuildId();
+  const Json body{{"program", program},
                   {"host", HostRecord()},
                   {"user", UserName()},
                   {"verb", run.verb},

@@ -5,16 +5,11 @@
 #include <cmath>
 
 #include "base/numbers.h"
+#include "base/value_names.h"
 #include "viz/picture_set.h"
 
 namespace telestrain {
 namespace {
-
-std::string ViewHelp() {
-  std::string names;
-  for (const std::string& name : viz::ViewNames()) names += (names.empty() ? "" : ", ") + name;
-  return "draw one picture of the standard set (default: all): " + names;
-}
 
 // The text with the views that the option is for.
 std::string OfViews(const std::string& text, const std::string& more = "") {
@@ -37,47 +32,56 @@ Status ReadSize(const std::string& text, RenderOptions& options) {
 }  // namespace
 
 void RenderArguments::AddTo(CLI::App& app) {
-  auto* one = app.add_option("--view", view, ViewHelp());
+  auto* one = app.add_option("--view", view, "draw one picture of the standard set (default: all)")
+                  ->type_name(Among(viz::ViewNames()));
   app.add_flag("--reported", reported, "only the pictures of the set that report.pdf shows")
       ->excludes(one);
   app.add_option("--state", state,
                  OfViews("state of the pipe: its number from 0, its image or 'largest'"))
+      ->type_name("STATE")
       ->capture_default_str();
   app.add_option("--quantity", quantity,
                  OfViews("what colours the pipe: a point array of pipe_NNN.vtp, by default the "
                          "axial strain",
-                         "; --states"));
+                         "; --states"))
+      ->type_name("QUANTITY");
   app.add_option("--range", range,
                  OfViews("ends of the pipe's colour bar, in the quantity's unit", "; --states"))
       ->expected(2)
       ->type_name("LOW HIGH");
-  app.add_option("--size", size, "WIDTHxHEIGHT in px, up to 16384 a side (default: 2008x1240)");
+  app.add_option("--size", size, "WIDTHxHEIGHT in px, up to 16384 a side (default: 2008x1240)")
+      ->type_name("WIDTHxHEIGHT");
   app.add_option("--dpi", dpi,
                  "px per inch on paper, where texts and lines keep their size (default: the "
-                 "picture is 170 mm wide)");
+                 "picture is 170 mm wide)")
+      ->type_name(kCount);
   app.add_flag("--transparent", transparent, "nothing instead of white paper");
   app.add_option("--backend", backend, "source of OpenGL; both give the same pictures")
       ->check(CLI::IsMember({"osmesa", "egl"}))
       ->capture_default_str();
-  app.add_option("--out", out,
-                 "folder, or a file in .png for one view (default: RESULTS/pictures)");
+  app.add_option("--out", out, "folder, or a file in .png for one view (default: RESULTS/pictures)")
+      ->type_name(kPath);
   AddFilmsTo(app);
 }
 
 void RenderArguments::AddFilmsTo(CLI::App& app) {
   auto* turn = app.add_option("--turntable", turntable,
-                              "make a film in .mp4 or .gif of the array turning once");
+                              "make a film in .mp4 or .gif of the array turning once")
+                   ->type_name(kFile);
   auto* cycle = app.add_option("--states", states,
                                "make a film in .mp4 or .gif of the strain in every state, in one "
-                               "range of colours");
+                               "range of colours")
+                    ->type_name(kFile);
   turn->excludes(cycle);
   for (auto* film : {turn, cycle})
     for (const char* other : {"--view", "--out", "--transparent", "--state", "--reported"})
       film->excludes(app.get_option(other));
   for (const char* other : {"--quantity", "--range"}) turn->excludes(app.get_option(other));
-  app.add_option("--seconds", video.seconds, "length of the film (default: 8; 1.5 per state)");
+  app.add_option("--seconds", video.seconds, "length of the film (default: 8; 1.5 per state)")
+      ->type_name(kSeconds);
   app.add_option("--fps", video.frames_per_second,
-                 "frames per second of the film (default: 20; 10 in .gif)");
+                 "frames per second of the film (default: 20; 10 in .gif)")
+      ->type_name(kCount);
 }
 
 Result<RenderOptions> ReadOptions(const RenderArguments& arguments) {

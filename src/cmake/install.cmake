@@ -1,5 +1,6 @@
-# What `cmake --install` copies: the programs with their templates, and the geometry model of the array
-# (base, geometry, optics) as the CMake package `telestrain` for other programs.
+# What `cmake --install` copies: the programs with templates, manual pages and completions, and the
+# geometry model of the array (base, geometry, optics) as the CMake package `telestrain` for other
+# programs.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -8,14 +9,26 @@ set(exported_modules base geometry optics)
 set(package_folder "${CMAKE_INSTALL_LIBDIR}/cmake/telestrain")
 set(header_folder "${CMAKE_INSTALL_INCLUDEDIR}/telestrain")
 
-if(TARGET telestrain)
-  install(TARGETS telestrain RUNTIME COMPONENT program)
-  install(DIRECTORY templates DESTINATION "${CMAKE_INSTALL_DATADIR}/telestrain" COMPONENT program
-    OPTIONAL)
-endif()
-if(TARGET telestrain-view)
-  install(TARGETS telestrain-view RUNTIME COMPONENT program)
-endif()
+install(TARGETS telestrain telestrain-view RUNTIME COMPONENT program)
+install(DIRECTORY templates DESTINATION "${CMAKE_INSTALL_DATADIR}/telestrain" COMPONENT program)
+install(DIRECTORY "${TELESTRAIN_PAGES}/man1" DESTINATION "${CMAKE_INSTALL_MANDIR}"
+  COMPONENT program)
+foreach(completions bash:bash-completion/completions zsh:zsh/vendor-completions
+    fish:fish/vendor_completions.d)
+  string(REPLACE ":" ";" completions "${completions}")
+  list(GET completions 0 shell)
+  list(GET completions 1 folder)
+  install(DIRECTORY "${TELESTRAIN_PAGES}/completions/${shell}/"
+    DESTINATION "${CMAKE_INSTALL_DATADIR}/${folder}" COMPONENT program)
+endforeach()
+install(DIRECTORY src/app/pages/ DESTINATION "${CMAKE_INSTALL_DOCDIR}/verbs" COMPONENT program
+  FILES_MATCHING PATTERN "*.md")
+install(FILES CHANGELOG.md src/cmake/debian/copyright DESTINATION "${CMAKE_INSTALL_DOCDIR}"
+  COMPONENT program)
+install(FILES src/cmake/debian/telestrain-view.desktop
+  DESTINATION "${CMAKE_INSTALL_DATADIR}/applications" COMPONENT program)
+install(FILES src/cmake/debian/telestrain.svg
+  DESTINATION "${CMAKE_INSTALL_DATADIR}/icons/hicolor/scalable/apps" COMPONENT program)
 
 target_include_directories(telestrain_settings INTERFACE "$<INSTALL_INTERFACE:${header_folder}>")
 set_target_properties(telestrain_settings PROPERTIES EXPORT_NAME settings)

@@ -26,6 +26,29 @@ function(telestrain_module name)
     PRIVATE $<BUILD_INTERFACE:telestrain_warnings> ${arg_PRIVATE})
 endfunction()
 
+# telestrain_alone(a.cpp …)
+# Sources that a unity build (CMAKE_UNITY_BUILD: eight are compiled at a time) takes
+# one by one: a name in their unnamed namespace stands in a neighbour as well.
+function(telestrain_alone)
+  set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+endfunction()
+
+set(TELESTRAIN_TIME_FACTOR 1 CACHE STRING
+  "Factor on the time-outs of the tests, for builds that run slowly (sanitizers)")
+
+# Called at the end of a folder of tests that names some by add_test(): the factor for those.
+# telestrain_test() has it already.
+function(telestrain_lengthen_time_outs)
+  get_property(tests DIRECTORY PROPERTY TESTS)
+  foreach(test IN LISTS tests)
+    get_property(seconds TEST "${test}" PROPERTY TIMEOUT)
+    if(seconds)
+      math(EXPR seconds "${seconds} * ${TELESTRAIN_TIME_FACTOR}")
+      set_property(TEST "${test}" PROPERTY TIMEOUT ${seconds})
+    endif()
+  endforeach()
+endfunction()
+
 # telestrain_test(NAME SOURCES a_test.cpp … LIBRARIES lib … [LABEL label] [TIMEOUT seconds])
 # Makes one GoogleTest program whose every test is known to ctest. A test's own code runs once, so
 # the compiler's time is saved on it.
@@ -34,6 +57,8 @@ function(telestrain_test name)
   if(NOT arg_TIMEOUT)
     set(arg_TIMEOUT 120)
   endif()
+  math(EXPR arg_TIMEOUT "${arg_TIMEOUT} * ${TELESTRAIN_TIME_FACTOR}")
+  math(EXPR discovery_seconds "60 * ${TELESTRAIN_TIME_FACTOR}")
   add_executable(${name} ${arg_SOURCES})
   target_link_libraries(${name} PRIVATE telestrain_settings telestrain_warnings
     ${arg_LIBRARIES} GTest::gtest GTest::gtest_main)
@@ -41,6 +66,6 @@ function(telestrain_test name)
   target_compile_definitions(${name} PRIVATE
     TELESTRAIN_SOURCE_DIR="${PROJECT_SOURCE_DIR}" TELESTRAIN_BINARY_DIR="${PROJECT_BINARY_DIR}")
   include(GoogleTest)
-  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT ${discovery_seconds}
     PROPERTIES TIMEOUT ${arg_TIMEOUT} LABELS "${arg_LABEL}")
 endfunction()

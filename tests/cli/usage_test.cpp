@@ -67,13 +67,6 @@ TEST(Usage, EveryVerbHelpsWithAnExampleOfItself) {
   }
 }
 
-TEST(Usage, TheVersionIsOneLine) {
-  const ProgramRun run = RunTelestrain({"--version"});
-  EXPECT_EQ(run.exit_code, 0);
-  EXPECT_TRUE(run.out.starts_with("telestrain ")) << run.out;
-  EXPECT_EQ(run.out.find('\n'), run.out.size() - 1);
-}
-
 using OutFolder = SessionCopy;
 
 TEST_F(OutFolder, MustNotBeTheSessionItself) {

@@ -238,8 +238,7 @@ bool IsCommandWord(const std::string& word) {
                                               "head",
                                               "man",
                                               "printf"};
-};
-return words.contains(word);
+  return words.contains(word);
 }
 
 Document ReadDocument(const fs::path& path) {

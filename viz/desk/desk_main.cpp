@@ -9,6 +9,7 @@
 #include "base/files.h"
 #include "base/numbers.h"
 #include "session/made_from.h"
+#include "viz/desk/desk_arguments.h"
 #include "viz/desk/desk_control.h"
 #include "viz/desk/desk_style.h"
 #include "viz/png_bytes.h"
@@ -23,42 +24,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kUsageExit = 2, kDefectExit = 70;
-
-constexpr const char* kFooter =
-    "Keys: 1 array, 2 side, 3 top, 4 pipe; left and right: states; up and down: quantities; C: "
-    "colours\nof all states or of one; V O B R P M D G U F: layers; S saves the window as PNG in "
-    "the working folder; H lists all; Q "
-    "quits.\n"
-    "Exit codes: 0 done, 2 wrong usage, 3 bad results, 5 no display or a file that cannot be "
-    "written,\n70 a defect of the program.\n"
-    "Example: telestrain-view results --state 3 --quantity hoop_microstrain";
-
-struct Arguments {
-  std::string results, quantity, screenshot, state = "largest", size = "1440x900";
-  int view = 1;
-  std::vector<std::string> layers;
-
-  void AddTo(CLI::App& app);
-};
-
-void Arguments::AddTo(CLI::App& app) {
-  app.add_option("RESULTS", results, "results folder of telestrain")->required();
-  app.add_option("--view", view, "1 array, 2 side, 3 top, 4 pipe")
-      ->check(CLI::Range(1, 4))
-      ->capture_default_str();
-  app.add_option("--state", state, "state of the pipe: its number from 0, its image or 'largest'")
-      ->capture_default_str();
-  app.add_option("--quantity", quantity,
-                 "what colours the pipe: a point array of pipe_NNN.vtp (default: axial strain)");
-  std::vector<std::string> names;
-  for (const viz::Layer layer : viz::kAllLayers) names.push_back(NameOf(layer));
-  app.add_option("--layers", layers, "what is visible at first, separated by commas")
-      ->delimiter(',')
-      ->check(CLI::IsMember(names));
-  app.add_option("--size", size, "WIDTHxHEIGHT of the window in px")->capture_default_str();
-  app.add_option("--screenshot", screenshot,
-                 "draw the window once, save it as this PNG file and leave");
-}
 
 // "1440x900".
 Result<std::array<int, 2>> SizeOf(const std::string& text) {
@@ -75,7 +40,7 @@ Result<std::array<int, 2>> SizeOf(const std::string& text) {
                    text + "'"};
 }
 
-Result<viz::DeskModel> ModelOf(const Arguments& arguments) {
+Result<viz::DeskModel> ModelOf(const DeskArguments& arguments) {
   const fs::path results = arguments.results;
   TELESTRAIN_RETURN_IF_ERROR(RequireConsistent(results, Step::kRender));
   TELESTRAIN_ASSIGN_OR_RETURN(viz::Scene scene, viz::SceneFromResults(results));
@@ -102,7 +67,7 @@ Status Screenshot(viz::DeskWindow* window, const std::string& path) {
   return {};
 }
 
-Status View(const Arguments& arguments) {
+Status View(const DeskArguments& arguments) {
   TELESTRAIN_ASSIGN_OR_RETURN(const auto size_px, SizeOf(arguments.size));
   TELESTRAIN_ASSIGN_OR_RETURN(viz::DeskModel model, ModelOf(arguments));
   TELESTRAIN_ASSIGN_OR_RETURN(const auto window,
@@ -117,13 +82,8 @@ Status View(const Arguments& arguments) {
 }
 
 int Main(int argc, char** argv) {
-  CLI::App app{
-      "telestrain-view shows the results of telestrain on the desktop: the views, the boards, the\n"
-      "rulers and the strained pipe, to turn, to measure and to point at."};
-  app.name("telestrain-view");
-  app.set_version_flag("--version", "telestrain-view " TELESTRAIN_VERSION);
-  app.footer(kFooter);
-  Arguments arguments;
+  CLI::App app;
+  DeskArguments arguments;
   arguments.AddTo(app);
   try {
     app.parse(argc, argv);

@@ -1,0 +1,9 @@
+#pragma once
+
+#include "base/library_version.h"
+
+namespace telestrain {
+
+LibraryVersion OpenCvVersion();
+
+}  // namespace telestrain
