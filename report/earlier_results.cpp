@@ -17,7 +17,7 @@ constexpr const char* kRemedy =
     "; name the results folder of an earlier 'telestrain report', or its report.pdf";
 
 // A results.json with thousands of states has a few; parsed, it takes many times as much memory.
-constexpr std::size_t kMostJsonBytes = std::size_t{32} << 20;
+constexpr std::size_t kMostAttachedJsonBytes = 32 * kMebibyte;
 
 Result<Json> ParseAttachment(const std::string& pdf, const std::string& name,
                              const std::string& text, const std::string& schema) {
@@ -44,16 +44,16 @@ Result<EarlierResults> ReadFolder(const fs::path& folder) {
 
 Result<EarlierResults> ReadReport(const fs::path& pdf) {
   EarlierResults earlier;
-  TELESTRAIN_ASSIGN_OR_RETURN(const std::string bytes, ReadFile(pdf));
+  TELESTRAIN_ASSIGN_OR_RETURN(const std::string bytes, ReadFile(pdf, kMostReportBytes));
   TELESTRAIN_ASSIGN_OR_RETURN(const PdfContents contents, ReadPdfContents(pdf.string(), bytes));
   const auto results = contents.attachments.find("results.json");
   if (results == contents.attachments.end())
     return BadInput(pdf.string() + ": has no attachment results.json" + kRemedy);
   for (const auto& [name, content] : contents.attachments)
-    if (content.size() > kMostJsonBytes)
+    if (content.size() > kMostAttachedJsonBytes)
       return BadInput(pdf.string() + ": its attachment " + name + " has " +
                       std::to_string(content.size()) + " bytes, at most " +
-                      std::to_string(kMostJsonBytes) + " are read" + kRemedy);
+                      std::to_string(kMostAttachedJsonBytes) + " are read" + kRemedy);
   earlier.file = "report.pdf";
   earlier.sha256 = Sha256Hex(bytes);
   TELESTRAIN_ASSIGN_OR_RETURN(

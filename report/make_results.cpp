@@ -103,7 +103,8 @@ Result<ResultTable> EvidenceTable(const std::filesystem::path& results) {
   for (const char* name : {"inputs.json", "detection.json", "calibration.json", "residuals.csv",
                            "mrcal.json", "ruler.json", "strain.json"}) {
     if (!std::filesystem::exists(results / name)) continue;
-    TELESTRAIN_ASSIGN_OR_RETURN(const std::string bytes, ReadFile(results / name));
+    TELESTRAIN_ASSIGN_OR_RETURN(const std::string bytes,
+                                ReadFile(results / name, kMostResultBytes));
     table.AddRow({name, CountCell(static_cast<double>(bytes.size())), Sha256Hex(bytes)});
   }
   return table;

@@ -168,7 +168,7 @@ PdfDocument::~PdfDocument() = default;
 
 Result<std::unique_ptr<PdfDocument>> PdfDocument::Create(ArchiveLevel level) {
   TELESTRAIN_RETURN_IF_ERROR(PdfFonts().CheckInstalled());
-  auto profile = ReadFile(kColorProfile);
+  auto profile = ReadFile(kColorProfile, kMostTextBytes);
   if (!profile)
     return OutputFailed("the colour profile of the report cannot be read: " +
                         profile.error().message + "; install the package icc-profiles-free");

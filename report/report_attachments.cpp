@@ -46,7 +46,8 @@ Result<std::vector<PdfAttachment>> ReportAttachments(const std::filesystem::path
   for (PdfAttachment& attachment : KnownFiles()) {
     std::error_code code;
     if (!std::filesystem::exists(results / attachment.name, code)) continue;
-    TELESTRAIN_ASSIGN_OR_RETURN(attachment.bytes, ReadFile(results / attachment.name));
+    TELESTRAIN_ASSIGN_OR_RETURN(attachment.bytes,
+                                ReadFile(results / attachment.name, kMostResultBytes));
     // What was done later, such as writing this very report, is not of these results.
     if (attachment.name == kTrail) attachment.bytes = TrailOfResults(attachment.bytes);
     attachments.push_back(std::move(attachment));

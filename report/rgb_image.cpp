@@ -66,7 +66,7 @@ int FilterRow(int filter, const PaddedRow& row, const PaddedRow& above, std::str
 }  // namespace
 
 Result<RgbImage> ReadPng(const std::filesystem::path& path) {
-  TELESTRAIN_ASSIGN_OR_RETURN(const std::string bytes, ReadFile(path));
+  TELESTRAIN_ASSIGN_OR_RETURN(const std::string bytes, ReadFile(path, kMostImageBytes));
   png_image png;
   std::memset(&png, 0, sizeof png);
   png.version = PNG_IMAGE_VERSION;

@@ -88,7 +88,7 @@ TemplateFile TemplateFolder::BuiltIn(const std::string& name) {
 Result<TemplateFile> TemplateFolder::ReadOwn(const std::string& name) const {
   std::error_code code;
   if (own_.empty() || !fs::exists(own_ / name, code)) return TemplateFile{};
-  TELESTRAIN_ASSIGN_OR_RETURN(std::string text, ReadFile(own_ / name));
+  TELESTRAIN_ASSIGN_OR_RETURN(std::string text, ReadFile(own_ / name, kMostTextBytes));
   return TemplateFile{(own_ / name).string(), std::move(text)};
 }
 

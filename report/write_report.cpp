@@ -70,7 +70,7 @@ Status WriteReport(const std::filesystem::path& results, const ReportOptions& op
   const auto path = results / "results.json";
   TELESTRAIN_ASSIGN_OR_RETURN(const Json read,
                               ReadJson(path, "telestrain.results/1", "telestrain report"));
-  TELESTRAIN_ASSIGN_OR_RETURN(const std::string bytes, ReadFile(path));
+  TELESTRAIN_ASSIGN_OR_RETURN(const std::string bytes, ReadFile(path, kMostJsonBytes));
   if (options.on_note)
     for (const std::string& note : LayoutNotes(layout, read)) options.on_note(note);
   Json values = layout.FillValues(read);

@@ -51,7 +51,7 @@ class Mp4File : public VideoFile {
 
   Status Close() override {
     writer_.release();
-    TELESTRAIN_ASSIGN_OR_RETURN(const std::string bytes, ReadFile(part_));
+    TELESTRAIN_ASSIGN_OR_RETURN(const std::string bytes, ReadFile(part_, kMostResultBytes));
     if (bytes.empty()) return OutputFailed(path_.string() + ": the encoder wrote nothing");
     return WriteFileAtomically(path_, bytes);
   }

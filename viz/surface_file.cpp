@@ -11,7 +11,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string_view>
 
+#include "base/files.h"
+#include "base/numbers.h"
 #include "viz/quantity.h"
 #include "viz/vtk_messages.h"
 
@@ -26,6 +29,26 @@ constexpr const char* kGroup = "group";
 Error Malformed(const std::filesystem::path& path, const std::string& problem) {
   return BadInput(path.string() + ": " + problem +
                   "; make the file again with 'telestrain measure'");
+}
+
+// VTK takes memory for the counts that a file states before it reads what is there. In text, as
+// `measure` writes it, a point or a cell takes a byte at least; packed files are none of ours.
+std::string CountFault(const std::string& text) {
+  if (text.find("compressor=") != std::string::npos) return "is packed";
+  constexpr std::string_view kBegin = "NumberOf";
+  double components = 1, others = 1;  // the largest ones
+  for (std::size_t at = text.find(kBegin); at != std::string::npos; at = text.find(kBegin, at)) {
+    at += kBegin.size();
+    const std::size_t quote = text.find('"', at), end = text.find('"', quote + 1);
+    if (end == std::string::npos) break;  // VTK says what is wrong
+    const auto count = ParseDouble(text.substr(quote + 1, end - quote - 1));
+    double& largest = text.compare(at, 10, "Components") == 0 ? components : others;
+    largest = std::max(largest, count.value_or(-1));
+    if (!count || *count < 0 || components * others > static_cast<double>(text.size()))
+      return "states a count at byte " + std::to_string(quote + 1) + " that its " +
+             std::to_string(text.size()) + " bytes cannot hold";
+  }
+  return "";
 }
 
 // Whether the array has a row of `components` numbers for every point.
@@ -125,6 +148,8 @@ bool ReadPoints(vtkPolyData* data, Surface* surface) {
 Result<Surface> ReadSurface(const std::filesystem::path& path, int group_count) {
   if (!std::filesystem::is_regular_file(path))
     return Malformed(path, "does not exist, strain.json names it");
+  TELESTRAIN_ASSIGN_OR_RETURN(const std::string text, ReadFile(path, kMostJsonBytes));
+  if (const std::string fault = CountFault(text); !fault.empty()) return Malformed(path, fault);
   VtkMessages messages;
   vtkNew<vtkXMLPolyDataReader> reader;
   reader->SetFileName(path.c_str());

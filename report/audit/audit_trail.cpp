@@ -86,7 +86,7 @@ Result<AuditTrail> AuditTrail::Open(const fs::path& file, const fs::path& key_fi
   }
   std::error_code code;
   if (!fs::exists(file, code)) return trail;
-  TELESTRAIN_ASSIGN_OR_RETURN(std::string text, ReadFile(file));
+  TELESTRAIN_ASSIGN_OR_RETURN(std::string text, ReadFile(file, kMostLogBytes));
   const std::size_t last_end = text.rfind('\n');
   const std::size_t whole_bytes = last_end == std::string::npos ? 0 : last_end + 1;
   if (whole_bytes < text.size()) trail.whole_bytes_ = whole_bytes;

@@ -56,7 +56,7 @@ Result<Ed25519Key> Ed25519Key::Of(const std::string& name, std::shared_ptr<evp_p
 }
 
 Result<Ed25519Key> Ed25519Key::ReadPrivate(const std::filesystem::path& file) {
-  TELESTRAIN_ASSIGN_OR_RETURN(const std::string pem, ReadFile(file));
+  TELESTRAIN_ASSIGN_OR_RETURN(const std::string pem, ReadFile(file, kMostTextBytes));
   const Bio bio = BioOf(pem);
   return Of(file.string(),
             {PEM_read_bio_PrivateKey(bio.get(), nullptr, &NoPassword, nullptr), &EVP_PKEY_free});

@@ -133,7 +133,7 @@ Result<std::vector<std::string>> TellAuditOf(const fs::path& subject) {
   const bool is_folder = fs::is_directory(subject, code);
   const fs::path file = is_folder ? subject / "audit.jsonl" : subject;
   std::string name = file.string();
-  TELESTRAIN_ASSIGN_OR_RETURN(std::string text, ReadFile(file));
+  TELESTRAIN_ASSIGN_OR_RETURN(std::string text, ReadFile(file, kMostLogBytes));
   std::vector<std::string> of_report;
   if (text.starts_with("%PDF-")) {
     TELESTRAIN_ASSIGN_OR_RETURN(PdfContents contents, ReadPdfContents(name, text));

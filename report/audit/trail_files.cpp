@@ -55,7 +55,7 @@ Status CheckFile(const fs::path& file, const std::string& path, const std::strin
   TELESTRAIN_RETURN_IF_ERROR(RequireRegular(file, path));
   const Error changed = BadInput(path + " was changed after " + made_by + " made it");
   if (path != kReport && HasOtherSize(file, wanted.bytes)) return changed;
-  TELESTRAIN_ASSIGN_OR_RETURN(const std::string bytes, ReadFile(file));
+  TELESTRAIN_ASSIGN_OR_RETURN(const std::string bytes, ReadFile(file, kMostResultBytes));
   if (Sha256Hex(bytes) == wanted.sha256) return {};
   return path == kReport ? CheckSignedSince(bytes, made_by, wanted) : changed;
 }

@@ -28,7 +28,7 @@ Status RequireThere(const fs::path& path) {
 Result<FolderTrail> ReadTrail(const fs::path& file) {
   if (!IsThere(file)) return BadInput(file.string() + " is missing: nothing tells what was done");
   FolderTrail trail;
-  TELESTRAIN_ASSIGN_OR_RETURN(trail.text, ReadFile(file));
+  TELESTRAIN_ASSIGN_OR_RETURN(trail.text, ReadFile(file, kMostLogBytes));
   TELESTRAIN_ASSIGN_OR_RETURN(trail.entries, ReadAuditTrail(file.string(), trail.text));
   if (trail.entries.empty()) return BadInput(file.string() + " is empty");
   TELESTRAIN_RETURN_IF_ERROR(CheckPaths(trail.entries));
@@ -39,7 +39,7 @@ Result<FolderTrail> ReadTrail(const fs::path& file) {
 Result<std::string> InputsInWords(const AuditQuestion& question, const FolderTrail& trail) {
   fs::path session = question.session;
   if (session.empty()) {
-    const auto place = ReadFile(question.subject / "session.path");
+    const auto place = ReadFile(question.subject / "session.path", kMostTextBytes);
     if (!place) return std::string("inputs not checked: session.path is missing");
     session = place->substr(0, place->find('\n'));
   }
@@ -57,7 +57,7 @@ Result<std::string> ReportInWords(const AuditQuestion& question, const FolderTra
   if (!IsThere(path) && !trust.certificates.empty())
     return BadInput("report.pdf is missing although --trust names who may sign");
   if (!IsThere(path)) return std::string("no report.pdf");
-  TELESTRAIN_ASSIGN_OR_RETURN(const std::string bytes, ReadFile(path));
+  TELESTRAIN_ASSIGN_OR_RETURN(const std::string bytes, ReadFile(path, kMostReportBytes));
   TELESTRAIN_ASSIGN_OR_RETURN(const std::string words,
                               CheckReport("report.pdf", bytes, trust, &trail));
   return "report.pdf: " + words;
@@ -80,10 +80,10 @@ std::string LooseLines(const AuditQuestion& question, const FolderTrail& trail) 
 
 Result<std::string> CheckLogFile(const AuditQuestion& question, const fs::path& file,
                                  const std::string& head) {
-  TELESTRAIN_ASSIGN_OR_RETURN(const std::string text, ReadFile(file));
+  TELESTRAIN_ASSIGN_OR_RETURN(const std::string text, ReadFile(file, kMostLogBytes));
   std::string key;
   if (!question.public_key.empty()) {
-    TELESTRAIN_ASSIGN_OR_RETURN(key, ReadFile(question.public_key));
+    TELESTRAIN_ASSIGN_OR_RETURN(key, ReadFile(question.public_key, kMostTextBytes));
   }
   TELESTRAIN_ASSIGN_OR_RETURN(const auto entries, ReadAuditTrail(file.string(), text, key));
   const bool tells = std::any_of(entries.begin(), entries.end(), [&](const AuditEntry& entry) {
@@ -115,7 +115,8 @@ Result<std::string> CheckFolder(const AuditQuestion& question) {
 // A report by itself: the session can be asked by the trail inside.
 Result<std::string> CheckPdf(const AuditQuestion& question) {
   const std::string name = question.subject.filename().string();
-  TELESTRAIN_ASSIGN_OR_RETURN(const std::string bytes, ReadFile(question.subject));
+  TELESTRAIN_ASSIGN_OR_RETURN(const std::string bytes,
+                              ReadFile(question.subject, kMostReportBytes));
   TELESTRAIN_ASSIGN_OR_RETURN(const std::string words,
                               CheckReport(name, bytes, question.trust, nullptr));
   if (question.session.empty()) return words + "; inputs not checked: no --session";

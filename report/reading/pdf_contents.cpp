@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "base/file_limits.h"
 #include "report/reading/attached_files.h"
 #include "report/reading/classic_pdf.h"
 #include "report/reading/page_text.h"
@@ -10,7 +11,6 @@ namespace telestrain {
 namespace {
 
 // Far more than a report of ours has; a hostile file must not fill the memory.
-constexpr std::size_t kMostFileBytes = std::size_t{256} << 20;
 constexpr std::size_t kMostAttachmentBytes = std::size_t{256} << 20;  // of all together
 constexpr std::size_t kMostPageBytes = std::size_t{64} << 20;         // drawing of all pages
 constexpr std::size_t kMostPages = 5000;
@@ -64,9 +64,9 @@ Result<PdfContents> ReadPdfContents(const std::string& name, const std::string& 
   const auto fail = [&](const std::string& reason) {
     return BadInput(name + ": is no undamaged PDF report: " + reason);
   };
-  if (bytes.size() > kMostFileBytes)
+  if (bytes.size() > kMostReportBytes)
     return fail("it has " + std::to_string(bytes.size()) + " bytes, at most " +
-                std::to_string(kMostFileBytes) + " are read");
+                std::to_string(kMostReportBytes) + " are read");
   if (const std::string reason = WhyNotClassicPdf(bytes); !reason.empty()) return fail(reason);
   try {
     QPDF pdf;

@@ -45,6 +45,9 @@ bool IsForDocuments(X509* certificate) {
   return false;
 }
 
+// A certificate is public: a locked one is refused, not asked about.
+int NoPassword(char*, int, int, void*) { return -1; }
+
 // What OpenSSL found, and in which certificate if not the signer's.
 std::string Reason(X509_STORE_CTX* context, const std::string& signer) {
   std::string reason = X509_verify_cert_error_string(X509_STORE_CTX_get_error(context));
@@ -205,12 +208,12 @@ std::optional<Validity> ValidityOf(std::string_view certificate) {
 Result<std::vector<std::string>> ReadCertificates(const std::vector<std::filesystem::path>& files) {
   std::vector<std::string> certificates;
   for (const std::filesystem::path& file : files) {
-    TELESTRAIN_ASSIGN_OR_RETURN(const std::string text, ReadFile(file));
+    TELESTRAIN_ASSIGN_OR_RETURN(const std::string text, ReadFile(file, kMostTextBytes));
     const std::size_t before = certificates.size();
     if (const CertificatePtr one = CertificateOf(text)) certificates.push_back(text);
     const BioPtr pem = BioOf(text);
     ERR_clear_error();
-    while (const CertificatePtr next{PEM_read_bio_X509(pem.get(), nullptr, nullptr, nullptr)})
+    while (const CertificatePtr next{PEM_read_bio_X509(pem.get(), nullptr, &NoPassword, nullptr)})
       certificates.push_back(DerOf(next.get(), i2d_X509));
     const bool at_end = ERR_GET_REASON(ERR_peek_last_error()) == PEM_R_NO_START_LINE;
     ERR_clear_error();

@@ -4,7 +4,10 @@
 
 #include <cstring>
 #include <exception>
+#include <filesystem>
+#include <system_error>
 
+#include "base/files.h"
 #include "report/signature/certificate.h"
 #include "report/signature/openssl_objects.h"
 #include "report/signature/utc_time.h"
@@ -67,9 +70,20 @@ void Take(const OSSL_STORE_INFO* info, Loaded* loaded) {
     loaded->certificates.push_back(DerOf(OSSL_STORE_INFO_get0_CERT(info), i2d_X509));
 }
 
+// Whether it is for a provider of OpenSSL ("pkcs11:…") and not a file.
+bool IsUri(const std::string& source) {
+  const std::size_t colon = source.find(':');
+  std::error_code code;
+  return colon != std::string::npos && source.find('/') > colon &&
+         !std::filesystem::exists(source, code);
+}
+
 Status LoadSource(const std::string& source, Password& password, Loaded* loaded) {
   const UiMethodPtr ui(UI_UTIL_wrap_read_pem_callback(&GivePassword, 0));
   password.source = source;
+  // OpenSSL would wait for a pipe and read a device to its end.
+  if (!IsUri(source))
+    if (const auto file = ReadFile(source, kMostTextBytes); !file) return file.error();
   const StoreReaderPtr store(
       OSSL_STORE_open(source.c_str(), ui.get(), &password, nullptr, nullptr));
   if (!store) return BadInput(source + ": cannot be opened: " + OpenSslReason());

@@ -118,7 +118,8 @@ class Replay {
  private:
   // The chain before the entry, so that what a step adds and a report carries is the same.
   Status Seed(std::size_t count) const {
-    TELESTRAIN_ASSIGN_OR_RETURN(const std::string text, ReadFile(choices_.results / "audit.jsonl"));
+    TELESTRAIN_ASSIGN_OR_RETURN(const std::string text,
+                                ReadFile(choices_.results / "audit.jsonl", kMostLogBytes));
     std::size_t end = 0;
     for (std::size_t i = 0; i < count; ++i) end = text.find('\n', end) + 1;
     return WriteFileAtomically(work_.Results() / "audit.jsonl", text.substr(0, end));
@@ -187,7 +188,8 @@ class Replay {
     for (const Json& file : ListAt(entries_[index].body, "/outputs")) {
       const std::string path = TextAt(file, "/path"), hash = TextAt(file, "/sha256");
       const bool is_inside = TextAt(file, "/of") == "results";
-      const auto now = ReadFile((is_inside ? work_.Results() : ElsewhereOf(index)) / path);
+      const auto now =
+          ReadFile((is_inside ? work_.Results() : ElsewhereOf(index)) / path, kMostResultBytes);
       if (!now) return path + " was not made again";
       const std::string difference = is_inside ? DifferenceInResults(path, hash, *now) : "";
       if (!difference.empty()) return path + ": " + difference;
@@ -205,7 +207,7 @@ class Replay {
                                   const std::string& now) const {
     const TrailFile latest = LatestOutputs(entries_).at(path);
     if (latest.sha256 != hash) return "";
-    const auto then = ReadFile(choices_.results / path);
+    const auto then = ReadFile(choices_.results / path, kMostResultBytes);
     if (!then) return IsSuperseded(entries_, latest.entry) ? "" : "is missing in the results";
     if (path == "report.pdf" && then->starts_with(now)) return "";
     return FirstDifference(path, *then, now);
@@ -229,7 +231,7 @@ Result<fs::path> SessionOf(const ReplayChoices& choices) {
   fs::path session = choices.session;
   if (session.empty()) {
     TELESTRAIN_ASSIGN_OR_RETURN(const std::string place,
-                                ReadFile(choices.results / "session.path"));
+                                ReadFile(choices.results / "session.path", kMostTextBytes));
     session = place.substr(0, place.find('\n'));
   }
   std::error_code code;
@@ -257,7 +259,8 @@ Result<std::string> Compared(const ReplayChoices& choices, const fs::path& sessi
 }  // namespace
 
 Result<int> ReplayAudit(const ReplayChoices& choices, Console& console) {
-  TELESTRAIN_ASSIGN_OR_RETURN(const std::string text, ReadFile(choices.results / "audit.jsonl"));
+  TELESTRAIN_ASSIGN_OR_RETURN(const std::string text,
+                              ReadFile(choices.results / "audit.jsonl", kMostLogBytes));
   TELESTRAIN_ASSIGN_OR_RETURN(const fs::path session, SessionOf(choices));
   TELESTRAIN_ASSIGN_OR_RETURN(const WorkFolder work, WorkFolder::Make(choices.keep));
   const Result<std::string> compared = Compared(choices, session, text, work);

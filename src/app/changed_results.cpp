@@ -19,7 +19,7 @@ std::vector<std::string> ChangesSinceRecorded(const fs::path& results) {
   const fs::path trail = results / "audit.jsonl";
   std::error_code code;
   if (!fs::exists(trail, code)) return sentences;
-  const auto text = ReadFile(trail);
+  const auto text = ReadFile(trail, kMostLogBytes);
   if (!text) return sentences;
   const auto entries = ReadAuditTrail(trail.string(), *text);
   if (!entries) return sentences;

@@ -38,7 +38,7 @@ Result<std::vector<viz::ReviewPicture>> ReadPictures(const fs::path& folder) {
     for (const std::string& name : names) {
       const bool of_state = kind.of_every_state && name.starts_with(stem + "_");
       if (kind.draw == nullptr || (name != stem + ".png" && !of_state)) continue;
-      TELESTRAIN_ASSIGN_OR_RETURN(std::string png, ReadFile(folder / name));
+      TELESTRAIN_ASSIGN_OR_RETURN(std::string png, ReadFile(folder / name, kMostImageBytes));
       pictures.push_back({name, std::move(png)});
     }
   }

@@ -98,7 +98,7 @@ Status SetTextureRegion(const CorrelateArguments& arguments, const GrayImage& re
 }  // namespace
 
 Result<InputImage> ReadInput(const std::filesystem::path& path) {
-  TELESTRAIN_ASSIGN_OR_RETURN(const std::string bytes, ReadFile(path));
+  TELESTRAIN_ASSIGN_OR_RETURN(const std::string bytes, ReadFile(path, kMostImageBytes));
   TELESTRAIN_ASSIGN_OR_RETURN(GrayImage image, DecodeGrayImage(path.string(), bytes));
   return InputImage{path, Sha256Hex(bytes), std::move(image)};
 }
@@ -113,7 +113,7 @@ std::string ShownName(const std::filesystem::path& path) {
 
 Status CheckImages(const std::vector<std::string>& images, const GrayImage& reference) {
   for (const std::string& path : images) {
-    TELESTRAIN_ASSIGN_OR_RETURN(const std::string bytes, ReadFile(path));
+    TELESTRAIN_ASSIGN_OR_RETURN(const std::string bytes, ReadFile(path, kMostImageBytes));
     TELESTRAIN_RETURN_IF_ERROR(CheckImageBytes(path, bytes));
     const auto size = SizeFromHeader(bytes);
     if (size->width_px != reference.width || size->height_px != reference.height)

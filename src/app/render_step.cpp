@@ -18,7 +18,8 @@ std::map<std::string, std::string> ReportedPictures(const fs::path& results) {
   for (const viz::PictureKind& kind : viz::PictureKinds()) {
     if (!kind.in_report) continue;
     const std::string name = std::string(kind.name) + ".png";
-    if (auto png = ReadFile(results / "pictures" / name)) bytes[name] = *std::move(png);
+    if (auto png = ReadFile(results / "pictures" / name, kMostImageBytes))
+      bytes[name] = *std::move(png);
   }
   return bytes;
 }

@@ -58,7 +58,7 @@ bool IsHalfWritten(const std::string& name) {
 // A signature dictionary says which bytes it covers, in clear.
 bool IsSignedPdf(const fs::path& path) {
   if (path.extension() != ".pdf") return false;
-  const auto bytes = ReadFile(path);
+  const auto bytes = ReadFile(path, kMostReportBytes);
   return bytes && bytes->find("/ByteRange") != std::string::npos;
 }
 
@@ -122,12 +122,13 @@ std::vector<std::string> ImageNames(const Session& session) {
 Result<Json> FilesJson(const Session& session) {
   Json files = Json::array();
   for (const std::string& name : TableNames(session)) {
-    TELESTRAIN_ASSIGN_OR_RETURN(const std::string bytes, ReadFile(session.folder / name));
+    TELESTRAIN_ASSIGN_OR_RETURN(const std::string bytes,
+                                ReadFile(session.folder / name, kMostTableBytes));
     files.push_back(FileJson(name, bytes));
   }
   for (const std::string& name : ImageNames(session)) {
     const fs::path path = session.folder / name;
-    TELESTRAIN_ASSIGN_OR_RETURN(const std::string bytes, ReadFile(path));
+    TELESTRAIN_ASSIGN_OR_RETURN(const std::string bytes, ReadFile(path, kMostImageBytes));
     TELESTRAIN_RETURN_IF_ERROR(
         CheckImageBytes(path.string(), bytes, session.sensor.width_px, session.sensor.height_px));
     files.push_back(FileJson(name, bytes));
@@ -179,7 +180,7 @@ Result<std::string> InputsText(const Session& session, const fs::path& corners) 
   TELESTRAIN_RETURN_IF_ERROR(RequireUnseenRuler(session, HashesIn(files)));
   Json corners_json = nullptr;
   if (!corners.empty()) {
-    TELESTRAIN_ASSIGN_OR_RETURN(const std::string bytes, ReadFile(corners));
+    TELESTRAIN_ASSIGN_OR_RETURN(const std::string bytes, ReadFile(corners, kMostResultBytes));
     corners_json = FileJson(corners.filename().string(), bytes);
   }
   Json json{{"schema", kInputsSchema}, {"program", ProgramRecord()}};

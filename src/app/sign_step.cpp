@@ -49,13 +49,21 @@ Result<std::string> AskTerminal(const std::string& source) {
   return password;
 }
 
-// Unbuffered, so that no copy of it stays behind.
+// Unbuffered, so that no copy of it stays behind. Beside files, what the shell gives for <(…) is
+// read; any other pipe or device could be waited for without end.
 Result<std::string> PasswordIn(const std::string& file) {
+  std::error_code code;
+  if (!fs::is_regular_file(file, code) && !file.starts_with("/dev/fd/"))
+    return BadInput(file +
+                    ": the password cannot be read: there is no regular file; correct "
+                    "--password-file or set TELESTRAIN_KEY_PASSWORD");
   std::ifstream stream;
   stream.rdbuf()->pubsetbuf(nullptr, 0);
   stream.open(file, std::ios::binary);
   std::string text(kMostPassword_bytes + 1, '\0');
-  if (!stream || fs::is_directory(file)) return BadInput(file + ": the password cannot be read");
+  if (!stream)
+    return BadInput(file + ": the password cannot be read: " + std::strerror(errno) +
+                    "; allow reading it");
   stream.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(static_cast<std::size_t>(stream.gcount()));
   const bool too_long = text.size() > kMostPassword_bytes;
@@ -136,7 +144,8 @@ fs::path FileBehind(const fs::path& path) {
 Result<int> SignStep(const SignArguments& arguments, Console& console) {
   const std::string target = arguments.out.empty() ? arguments.report : arguments.out;
   TELESTRAIN_ASSIGN_OR_RETURN(const SignOptions options, OptionsOf(arguments));
-  if (const auto readable = ReadFile(arguments.report); !readable) return readable.error();
+  if (const auto readable = ReadFile(arguments.report, kMostReportBytes); !readable)
+    return readable.error();
   // A password may be asked for before others have to wait.
   TELESTRAIN_ASSIGN_OR_RETURN(const SigningKey key, KeyOf(arguments));
   // Held until the trail tells of the signature: of two who sign at once the second signs what the
@@ -145,7 +154,8 @@ Result<int> SignStep(const SignArguments& arguments, Console& console) {
       const PathLock lock,
       PathLock::Take(fs::absolute(target).parent_path(), "sign in a folder of this machine"));
   TELESTRAIN_ASSIGN_OR_RETURN(auto trail, TrailBeside(fs::absolute(target)));
-  TELESTRAIN_ASSIGN_OR_RETURN(const std::string before, ReadFile(arguments.report));
+  TELESTRAIN_ASSIGN_OR_RETURN(const std::string before,
+                              ReadFile(arguments.report, kMostReportBytes));
   TELESTRAIN_ASSIGN_OR_RETURN(const SignedReport signed_report,
                               SignReport(arguments.report, before, key, options));
   TELESTRAIN_RETURN_IF_ERROR(WriteFileAtomically(FileBehind(target), signed_report.bytes));

@@ -42,11 +42,12 @@ Status AddFiles(const StepRecord& step, const fs::path& results, const Json& inp
   std::error_code code;
   for (const std::string& name : step.inputs) {
     if (!fs::exists(results / name, code)) continue;
-    TELESTRAIN_ASSIGN_OR_RETURN(const std::string bytes, ReadFile(results / name));
+    TELESTRAIN_ASSIGN_OR_RETURN(const std::string bytes,
+                                ReadFile(results / name, kMostResultBytes));
     inputs.push_back(FileRecord("results", name, bytes));
   }
   for (const fs::path& path : step.inputs_elsewhere) {
-    TELESTRAIN_ASSIGN_OR_RETURN(const std::string bytes, ReadFile(path));
+    TELESTRAIN_ASSIGN_OR_RETURN(const std::string bytes, ReadFile(path, kMostResultBytes));
     inputs.push_back(FileRecord("elsewhere", path.filename().string(), bytes));
   }
   return {};
@@ -58,7 +59,7 @@ Result<Json> OutputsOf(const StepRecord& step, const fs::path& results) {
   std::error_code code;
   for (const std::string& name : step.outputs) {
     if (!fs::exists(folder / name, code)) continue;
-    TELESTRAIN_ASSIGN_OR_RETURN(const std::string bytes, ReadFile(folder / name));
+    TELESTRAIN_ASSIGN_OR_RETURN(const std::string bytes, ReadFile(folder / name, kMostResultBytes));
     const std::string inside = InsideResults(results, folder / name);
     outputs.push_back(inside.empty() ? FileRecord("elsewhere", name, bytes)
                                      : FileRecord("results", inside, bytes));

@@ -67,7 +67,8 @@ std::vector<fs::path> IfGiven(const fs::path& path) {
 
 // Leaves the session's description and its place in the results folder, and records what was read.
 Status RecordOpening(const fs::path& folder, const fs::path& results, const fs::path& corners) {
-  TELESTRAIN_ASSIGN_OR_RETURN(const std::string description, ReadFile(folder / "session.toml"));
+  TELESTRAIN_ASSIGN_OR_RETURN(const std::string description,
+                              ReadFile(folder / "session.toml", kMostTextBytes));
   TELESTRAIN_RETURN_IF_ERROR(WriteFileAtomically(results / "session.toml", description));
   std::error_code code;
   const std::string place = fs::absolute(folder, code).lexically_normal().string();

@@ -20,7 +20,7 @@ constexpr const char* kReference = "reference";  // the image of the first state
 constexpr const char* kTemperature = "temperature_c";
 
 std::string TextOrNothing(const fs::path& path) {
-  const auto text = ReadFile(path);
+  const auto text = ReadFile(path, kMostLogBytes);
   return text ? *text : std::string();
 }
 

@@ -8,6 +8,7 @@
 
 #include "base/files.h"
 #include "base/numbers.h"
+#include "session/inside_folder.h"
 #include "session/pipe_table.h"
 #include "target/image_file.h"
 
@@ -76,7 +77,7 @@ Result<std::optional<PipeImage>> WatchedFolder::NextKnown() {
   if (index >= journal_.known().size() || enough || stop_) return std::optional<PipeImage>{};
   TELESTRAIN_RETURN_IF_ERROR(ReadTable());
   const std::string name = fs::path(journal_.known()[index].image).filename().string();
-  const auto bytes = ReadFile(choices_.folder / name);
+  const auto bytes = ReadFile(choices_.folder / name, kMostImageBytes);
   if (!bytes) return std::optional<PipeImage>{};
   PipeImage image;
   image.table = RowOf(name);
@@ -104,7 +105,7 @@ Result<bool> WatchedFolder::ReadTable() {
   }
   if (!table_seen_) table_since_ = Clock::now();
   table_seen_ = true;
-  const auto text = ReadFile(path);
+  const auto text = ReadFile(path, kMostTableBytes);
   if (text && *text == table_text_ && !table_text_.empty()) return true;
   const bool ends = text && !text->empty() && text->back() == '\n';
   auto table = ReadPipeTableOf(session_, path);
@@ -160,7 +161,8 @@ std::optional<PipeImage> WatchedFolder::Decode(const std::string& name, File& fi
     if (file.bad) console_.Note("  not used: " + error.message);
     return std::optional<PipeImage>{};
   };
-  const auto bytes = ReadFile(path);
+  if (const Status inside = StaysInside(path); !inside) return complain(inside.error());
+  const auto bytes = ReadFile(path, kMostImageBytes);
   if (!bytes) return complain(bytes.error());
   auto pixels =
       DecodeGrayImage(path.string(), *bytes, session_.sensor.width_px, session_.sensor.height_px);

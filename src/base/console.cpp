@@ -1,11 +1,30 @@
 #include "base/console.h"
 
 #include <algorithm>
+#include <string_view>
+
+#include "base/utf8.h"
 
 namespace telestrain {
 
+namespace {
+
+// Keeps line feeds: what is said may be a table.
+std::string PrintableLines(const std::string& text) {
+  std::string printable;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    if (begin > 0) printable += '\n';
+    printable += PrintableText(std::string_view(text).substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return printable;
+}
+
+}  // namespace
+
 Console::Console(std::ostream& out, std::ostream& err, bool show_progress)
-    : out_(out), err_(err), show_progress_(show_progress) {}
+    : out_(out.rdbuf()), err_(err.rdbuf()), show_progress_(show_progress) {}
 
 void Console::ClearBar() {
   if (!bar_on_screen_) return;
@@ -16,13 +35,13 @@ void Console::ClearBar() {
 void Console::Say(const std::string& line) {
   const std::lock_guard lock(mutex_);
   ClearBar();
-  out_ << line << '\n' << std::flush;
+  out_ << PrintableLines(line) << '\n' << std::flush;
 }
 
 void Console::Note(const std::string& line) {
   const std::lock_guard lock(mutex_);
   ClearBar();
-  err_ << line << '\n' << std::flush;
+  err_ << PrintableText(line) << '\n' << std::flush;
 }
 
 void Console::Warn(const std::string& line) { Note("warning: " + line); }

@@ -6,7 +6,8 @@
 
 namespace telestrain {
 
-// Where a command talks to the person: results on `out`, everything else on `err`.
+// Where a command talks to the person: results on `out`, everything else on `err`. Names that come
+// from files may stand in a line: what would move the cursor is written as \xNN (PrintableText).
 class Console {
  public:
   // `show_progress` draws a progress bar on `err`; pass whether it is a terminal.
@@ -22,8 +23,10 @@ class Console {
  private:
   void ClearBar();
 
-  std::ostream& out_;
-  std::ostream& err_;
+  // Streams of our own on the buffers of those given: a library's reader may point std::cerr
+  // elsewhere for a while.
+  std::ostream out_;
+  std::ostream err_;
   bool show_progress_;
   bool bar_on_screen_ = false;
   std::mutex mutex_;

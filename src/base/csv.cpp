@@ -69,6 +69,30 @@ Status CheckEncoding(const CsvTable& table, int number, const std::string& line)
                   " holds bytes that are not UTF-8; save the file as UTF-8");
 }
 
+// Texts of tables go into results, file names and the report.
+Status CheckControls(const CsvTable& table, int number, const std::string& line) {
+  const auto is_control = [](char c) {
+    return (static_cast<unsigned char>(c) < 0x20 && c != '\t' && c != '\r') || c == 0x7F;
+  };
+  const auto at = std::find_if(line.begin(), line.end(), is_control);
+  if (at == line.end()) return {};
+  return BadInput(table.name + ":" + std::to_string(number) + ": byte " +
+                  std::to_string(at - line.begin() + 1) + " of the line is the control character " +
+                  PrintableText(std::string(1, *at)) + "; remove it, or save the file as UTF-8");
+}
+
+Status CheckSize(const CsvTable& table, int number, std::size_t cells) {
+  const std::string where = table.name + ":" + std::to_string(number) + ": ";
+  if (table.columns.size() > kMostColumns)
+    return BadInput(where + "the header has " + std::to_string(table.columns.size()) +
+                    " columns, the limit is " + std::to_string(kMostColumns) +
+                    "; remove those that are not needed");
+  if (cells > kMostCells)
+    return BadInput(where + "the table has more than " + std::to_string(kMostCells) +
+                    " cells, the limit; split it");
+  return {};
+}
+
 Status CheckHeader(const CsvTable& table, int line) {
   std::set<std::string> seen;
   for (const std::string& column : table.columns) {
@@ -100,6 +124,7 @@ Result<CsvTable> ParseCsv(const std::string& name, const std::string& text) {
   std::string line;
   for (int number = 1; std::getline(lines, line); ++number) {
     TELESTRAIN_RETURN_IF_ERROR(CheckEncoding(table, number, line));
+    TELESTRAIN_RETURN_IF_ERROR(CheckControls(table, number, line));
     const std::string trimmed = Trim(line);
     if (trimmed.empty() || trimmed.front() == '#') continue;
     const std::string where = name + ":" + std::to_string(number) + ": ";
@@ -111,12 +136,15 @@ Result<CsvTable> ParseCsv(const std::string& name, const std::string& text) {
     if (table.columns.empty()) {
       table.columns = std::move(*cells);
       table.header_line = number;
+      TELESTRAIN_RETURN_IF_ERROR(CheckSize(table, number, 0));
       TELESTRAIN_RETURN_IF_ERROR(CheckHeader(table, number));
     } else if (cells->size() != table.columns.size()) {
       return BadInput(where + std::to_string(cells->size()) + " cells, the header has " +
                       std::to_string(table.columns.size()) + "; make them equal");
     } else {
       table.rows.push_back({number, std::move(*cells)});
+      TELESTRAIN_RETURN_IF_ERROR(
+          CheckSize(table, number, table.rows.size() * table.columns.size()));
     }
   }
   if (table.columns.empty()) return BadInput(name + ": is empty; it needs a header line");
@@ -124,7 +152,7 @@ Result<CsvTable> ParseCsv(const std::string& name, const std::string& text) {
 }
 
 Result<CsvTable> ReadCsv(const std::filesystem::path& path) {
-  TELESTRAIN_ASSIGN_OR_RETURN(const std::string text, ReadFile(path));
+  TELESTRAIN_ASSIGN_OR_RETURN(const std::string text, ReadFile(path, kMostResultBytes));
   return ParseCsv(path.filename().string(), text);
 }
 

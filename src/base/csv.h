@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -7,6 +8,10 @@
 #include "base/result.h"
 
 namespace telestrain {
+
+constexpr std::size_t kMostColumns = 256;
+// residuals.csv of 5000 images has 26 million; each takes 32 bytes or more.
+constexpr std::size_t kMostCells = 30'000'000;
 
 // A comma-separated table with a header row. Cells are trimmed; double quotes protect commas.
 // Empty lines and lines that begin with '#' are skipped.
@@ -25,8 +30,8 @@ struct CsvTable {
 };
 
 // Parses `text`; `name` is used in errors. Fails (kBadInput) on text that is not UTF-8, a missing
-// header, a duplicate or empty column name, or a row whose number of cells differs from the
-// header's.
+// header, more than kMostColumns columns or kMostCells cells, a duplicate or empty column name, a
+// control character, or a row whose number of cells differs from the header's.
 Result<CsvTable> ParseCsv(const std::string& name, const std::string& text);
 Result<CsvTable> ReadCsv(const std::filesystem::path& path);
 

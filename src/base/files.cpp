@@ -1,42 +1,20 @@
 #include "base/files.h"
 
 #include <fcntl.h>
-#include <openssl/evp.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <array>
 #include <cerrno>
 #include <cstring>
-#include <fstream>
-#include <memory>
 #include <optional>
 #include <system_error>
-#include <vector>
+
+#include "base/descriptor.h"
 
 namespace telestrain {
 namespace {
 
 std::string Reason(int error_number) { return std::strerror(error_number); }
-
-std::string ToHex(const unsigned char* digest, unsigned size) {
-  static constexpr char kDigits[] = "0123456789abcdef";
-  std::string hex;
-  hex.reserve(2 * size);
-  for (unsigned i = 0; i < size; ++i) {
-    hex.push_back(kDigits[digest[i] >> 4]);
-    hex.push_back(kDigits[digest[i] & 15]);
-  }
-  return hex;
-}
-
-// An open file descriptor that closes itself.
-struct Descriptor {
-  int value = -1;
-  ~Descriptor() {
-    if (value >= 0) ::close(value);
-  }
-};
 
 // `flags`: of open(), beside those for writing. `mode`: of the new file, else what the system makes
 // of 0644. Returns 0 or the errno of the first call that failed.
@@ -68,23 +46,6 @@ Error CannotWrite(const std::filesystem::path& path, int error_number) {
 
 }  // namespace
 
-Result<std::string> ReadFile(const std::filesystem::path& path) {
-  std::error_code code;
-  if (std::filesystem::is_directory(path, code))
-    return BadInput(path.string() + ": is a folder, a file was expected");
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return BadInput(path.string() + ": cannot be read: " + Reason(errno));
-  // Not by iterators: they let the exception of a failed read through, read() makes it bad().
-  std::string bytes;
-  std::vector<char> block(1 << 16);
-  do {
-    file.read(block.data(), static_cast<std::streamsize>(block.size()));
-    bytes.append(block.data(), static_cast<std::size_t>(file.gcount()));
-  } while (file);
-  if (file.bad()) return BadInput(path.string() + ": reading failed part-way");
-  return bytes;
-}
-
 Status WriteFileAtomically(const std::filesystem::path& path, std::string_view bytes) {
   std::filesystem::path temporary = path;
   temporary += ".part" + std::to_string(::getpid());
@@ -110,20 +71,6 @@ Status EnsureFolder(const std::filesystem::path& path) {
     return OutputFailed(path.string() + ": cannot be made a folder" +
                         (code ? ": " + code.message() : std::string{}));
   return {};
-}
-
-std::string Sha256Hex(std::string_view bytes) {
-  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
-  unsigned size = 0;
-  const int done =
-      EVP_Digest(bytes.data(), bytes.size(), digest.data(), &size, EVP_sha256(), nullptr);
-  TELESTRAIN_CHECK(done == 1, "OpenSSL has no SHA-256");
-  return ToHex(digest.data(), size);
-}
-
-Result<std::string> Sha256HexOfFile(const std::filesystem::path& path) {
-  TELESTRAIN_ASSIGN_OR_RETURN(const std::string bytes, ReadFile(path));
-  return Sha256Hex(bytes);
 }
 
 }  // namespace telestrain

@@ -1,15 +1,20 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <string_view>
 
+#include "base/file_limits.h"
 #include "base/result.h"
 
 namespace telestrain {
 
-// The whole file as bytes. Fails (kBadInput) with the path and the system's reason.
-Result<std::string> ReadFile(const std::filesystem::path& path);
+// The whole file as bytes, at most `most_bytes` (file_limits.h has the limit of each kind). Never
+// waits and never fills the memory: a folder, pipe, device or socket is refused, and a file that is
+// larger or grows beyond the limit while it is read. Links are followed. Fails (kBadInput) with the
+// path, the system's reason or the limit, and the remedy.
+Result<std::string> ReadFile(const std::filesystem::path& path, std::size_t most_bytes);
 
 // Writes `bytes` under a temporary name beside `path`, syncs and renames, so that `path` is
 // either the old file or the whole new one, with the permissions of the old one. A symbolic link is
@@ -23,7 +28,8 @@ Status AppendToFile(const std::filesystem::path& path, std::string_view bytes);
 // Creates the folder and its parents; fails (kOutputFailed) when `path` exists and is no folder.
 Status EnsureFolder(const std::filesystem::path& path);
 
-// SHA-256 as 64 lower-case hexadecimal digits.
+// SHA-256 as 64 lower-case hexadecimal digits. A file is read in pieces, so that its size does not
+// matter; what is no file is refused as by ReadFile.
 std::string Sha256Hex(std::string_view bytes);
 Result<std::string> Sha256HexOfFile(const std::filesystem::path& path);
 

@@ -28,13 +28,15 @@ Result<nlohmann::ordered_json> ReadJson(const std::filesystem::path& path,
   std::error_code code;
   if (!std::filesystem::exists(path, code))
     return BadInput(path.string() + ": does not exist; run '" + maker + "' first");
-  TELESTRAIN_ASSIGN_OR_RETURN(const std::string text, ReadFile(path));
+  TELESTRAIN_ASSIGN_OR_RETURN(const std::string text, ReadFile(path, kMostJsonBytes));
   if (IsJsonDeeper(text))
     return BadInput(path.string() + ": is nested deeper than " + std::to_string(kDeepestJson) +
                     " brackets; make the file again with '" + maker + "'");
   try {
     auto json = nlohmann::ordered_json::parse(text);
-    const std::string found = json.is_object() ? json.value("schema", std::string("none")) : "none";
+    const bool has_schema =
+        json.is_object() && json.contains("schema") && json["schema"].is_string();
+    const std::string found = has_schema ? json["schema"].get<std::string>() : "none";
     if (found != schema)
       return BadInput(path.string() + ": schema is '" + PrintableText(found) + "', wanted '" +
                       schema + "'; make the file again with '" + maker + "'");

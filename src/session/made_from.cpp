@@ -6,6 +6,7 @@
 
 #include "base/files.h"
 #include "base/json_file.h"
+#include "base/utf8.h"
 
 namespace telestrain {
 
@@ -27,8 +28,15 @@ Status RequireConsistent(const fs::path& results, Step before) {
     std::error_code code;
     if (!fs::exists(results / name, code)) continue;
     TELESTRAIN_ASSIGN_OR_RETURN(const Json json, ReadJson(results / name, schema, maker));
-    const Json made_from = json.value("made_from", Json::object());
+    const Json made_from = json.contains("made_from") ? json["made_from"] : Json::object();
+    if (!made_from.is_object())
+      return BadInput((results / name).string() +
+                      ": made_from is no table of names and hashes; run '" + maker + "' again");
     for (const auto& [source, hash] : made_from.items()) {
+      // Results stand side by side: what is named is no path to anything else of the machine.
+      if (source.empty() || source.find('/') != std::string::npos || source == "..")
+        return BadInput((results / name).string() + ": made_from names '" + PrintableText(source) +
+                        "', which is no file beside it; run '" + maker + "' again");
       TELESTRAIN_ASSIGN_OR_RETURN(const std::string found, Sha256HexOfFile(results / source));
       if (hash == found) continue;
       return BadInput((results / name).string() + ": was made from another " + source +

@@ -1,14 +1,17 @@
+#include <unistd.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <cstring>
-#include <fstream>
 #include <map>
 #include <system_error>
 
 #include "base/csv.h"
 #include "base/files.h"
 #include "base/numbers.h"
+#include "base/utf8.h"
+#include "session/inside_folder.h"
 #include "session/pipe_table.h"
 #include "session/session_parts.h"
 
@@ -107,34 +110,14 @@ Result<TableReader> OpenTable(const fs::path& path, const ColumnRules& rules) {
   if (!IsThere(path))
     return BadInput(path.string() + ": does not exist; make it with the columns " +
                     ListOf(rules.required));
-  TELESTRAIN_ASSIGN_OR_RETURN(const std::string text, ReadFile(path));
+  TELESTRAIN_RETURN_IF_ERROR(StaysInside(path));
+  TELESTRAIN_ASSIGN_OR_RETURN(const std::string text, ReadFile(path, kMostTableBytes));
   TELESTRAIN_ASSIGN_OR_RETURN(CsvTable table, ParseCsv(path.string(), text));
   TELESTRAIN_RETURN_IF_ERROR(CheckColumns(table, rules));
   return TableReader(std::move(table));
 }
 
-// The path `inside` the folder with links followed, relative to the folder; what is not there is
-// left for CheckImageFile.
-Result<fs::path> FollowLinks(const std::string& place, const fs::path& folder,
-                             const fs::path& inside) {
-  std::error_code code;
-  const fs::path root = fs::weakly_canonical(folder / ".", code);
-  const fs::path file = code ? fs::path() : fs::weakly_canonical(folder / inside, code);
-  if (code)
-    return BadInput(place + ": the image '" + inside.string() +
-                    "' cannot be found: " + code.message() + "; correct the cell");
-  const fs::path relative = file.lexically_relative(root);
-  if (relative.empty() || *relative.begin() == "..")
-    return BadInput(place + ": the image '" + inside.string() +
-                    "' leaves the session folder by a "
-                    "symbolic link to " +
-                    file.string() + "; copy the image itself into the folder");
-  return relative;
-}
-
 Status CheckImageName(const std::string& place, const std::string& image) {
-  if (image.find('\0') != std::string::npos)
-    return BadInput(place + ": the image path holds a zero byte; correct the cell");
   const std::string forbidden = std::string(kCornerListSigns) + ",";
   if (image.find_first_of(forbidden) == std::string::npos) return {};
   return BadInput(place + ": the image '" + image +
@@ -152,7 +135,7 @@ Status CheckImageFile(const std::string& place, const fs::path& folder, const fs
   if (!fs::is_regular_file(status))
     return BadInput(place + ": the image '" + inside.string() +
                     "' is a folder or device, a file was expected; correct the cell");
-  if (!std::ifstream(folder / inside))
+  if (::access((folder / inside).c_str(), R_OK) != 0)
     return BadInput(place + ": the image '" + inside.string() +
                     "' cannot be read: " + std::strerror(errno) + "; allow reading it");
   return {};
@@ -165,11 +148,9 @@ Result<std::string> ReadImage(const TableReader& table, int row, const fs::path&
   const std::string place = table.Place(row);
   TELESTRAIN_RETURN_IF_ERROR(CheckImageName(place, image));
   const fs::path inside = fs::path(image).lexically_normal();
-  if (inside.is_absolute() || *inside.begin() == "..")
-    return BadInput(place + ": the image '" + image +
-                    "' leaves the session folder; copy it into the folder and write its path "
-                    "relative to it");
-  TELESTRAIN_ASSIGN_OR_RETURN(const fs::path followed, FollowLinks(place, folder, inside));
+  TELESTRAIN_ASSIGN_OR_RETURN(
+      const fs::path followed,
+      PathInside(place + ": the image '" + PrintableText(image) + "'", folder, inside));
   const auto [at, is_new] = seen.emplace(followed.generic_string(), place);
   if (!is_new)
     return BadInput(place + ": the image '" + image + "' is already used at " + at->second +

@@ -6,6 +6,7 @@
 
 #include "base/files.h"
 #include "base/numbers.h"
+#include "session/inside_folder.h"
 #include "session/session_parts.h"
 #include "session/toml_fields.h"
 
@@ -223,7 +224,8 @@ Result<Session> ReadSessionToml(const std::filesystem::path& path) {
   if (!std::filesystem::exists(path, code))
     return BadInput(path.string() + ": does not exist; give a session folder, which holds a " +
                     "session.toml, a calibration.csv and the images");
-  TELESTRAIN_ASSIGN_OR_RETURN(const std::string text, ReadFile(path));
+  TELESTRAIN_RETURN_IF_ERROR(StaysInside(path));
+  TELESTRAIN_ASSIGN_OR_RETURN(const std::string text, ReadFile(path, kMostTextBytes));
   TELESTRAIN_ASSIGN_OR_RETURN(const TomlNode root, ParseToml(path.string(), text));
   TELESTRAIN_RETURN_IF_ERROR(CheckSchema(root));
   Session session;

@@ -1,5 +1,6 @@
 #include "session/toml_fields.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/numbers.h"
@@ -16,6 +17,12 @@ constexpr double kUnitRounding = 1e-12;
 
 bool IsNumber(const TomlNode& node) {
   return (node.kind == Kind::kInteger || node.kind == Kind::kFloat) && std::isfinite(node.number);
+}
+
+// Also line ends: the texts stand in tables and file names.
+bool HasControls(const std::string& text) {
+  return std::any_of(text.begin(), text.end(),
+                     [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; });
 }
 
 std::string NameOf(const TomlNode& table) {
@@ -112,10 +119,9 @@ FieldReader Whole(int& into, NumberRange range) {
 }
 
 FieldReader Text(std::string& into) {
-  const std::string wanted = "a text of one line that is not empty";
+  const std::string wanted = "a text of one line without control characters that is not empty";
   return {wanted, [&into, wanted](const TomlNode& node) -> Status {
-            if (node.kind != Kind::kText || node.text.empty() ||
-                node.text.find_first_of("\r\n") != std::string::npos)
+            if (node.kind != Kind::kText || node.text.empty() || HasControls(node.text))
               return WrongValue(node, wanted);
             into = node.text;
             return {};

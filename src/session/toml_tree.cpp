@@ -80,7 +80,7 @@ TomlNode Convert(const std::string& file, const toml::node& node, const std::str
   if (const auto* table = node.as_table()) {
     std::vector<std::pair<toml::source_position, TomlNode>> members;
     for (const auto& [key, value] : *table) {
-      const std::string name(key.str());
+      const std::string name = PrintableText(key.str());
       TomlNode child =
           Convert(file, value, path.empty() ? name : path + "." + name, depth_left - 1);
       child.key = name;
@@ -115,7 +115,7 @@ std::string TomlNode::Shown() const {
     case Kind::kArray:
       return "an array of " + std::to_string(children.size()) + " values";
     case Kind::kText:
-      return "'" + text + "'";
+      return "'" + PrintableText(text) + "'";
     default:
       return text;
   }

@@ -162,7 +162,7 @@ Result<std::vector<BoardObservation>> ParseCornersVnl(const std::string& name,
 
 Result<std::vector<BoardObservation>> ReadCornersVnl(const std::filesystem::path& path,
                                                      int corner_count) {
-  TELESTRAIN_ASSIGN_OR_RETURN(const std::string text, ReadFile(path));
+  TELESTRAIN_ASSIGN_OR_RETURN(const std::string text, ReadFile(path, kMostResultBytes));
   return ParseCornersVnl(path.string(), text, corner_count);
 }
 

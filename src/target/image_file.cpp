@@ -1,11 +1,11 @@
 #include "target/image_file.h"
 
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
-#include <optional>
 
 #include "base/files.h"
 #include "target/image_header.h"
+#include "target/image_structure.h"
+#include "target/pixel_decoders.h"
 
 namespace telestrain {
 namespace {
@@ -13,9 +13,9 @@ namespace {
 constexpr long long kMostPixels = 100'000'000;  // four times the largest common sensors
 constexpr const char* kFormatRemedy = "; give an 8- or 16-bit PNG, TIFF, BMP, PGM or JPEG";
 
-Error Undecodable(const std::string& name) {
-  return BadInput(
-      name + ": the image cannot be decoded (damaged or cut short); record or copy it " + "again");
+Error Unfit(const std::string& name, const std::string& fault) {
+  return BadInput(name + ": the image " + fault + "; record or copy it again, as a single 8- or " +
+                  "16-bit PNG, TIFF, BMP, PGM or JPEG");
 }
 
 std::string SizeText(long long width, long long height) {
@@ -30,39 +30,30 @@ Status CheckSize(const std::string& name, const ImageSize& found, const ImageSiz
                     " as the session's sensor says");
   if (found.width_px > kMostPixels / found.height_px)
     return BadInput(name + ": the image has " + SizeText(found.width_px, found.height_px) +
-                    ", more than the limit of 100 million pixels");
+                    ", more than the limit of 100 million pixels; cut it to the part that matters");
   return {};
 }
 
-// Empty when the bytes are no image.
-cv::Mat Decode(const std::string& bytes) {
-  try {
-    const cv::Mat input(1, static_cast<int>(bytes.size()), CV_8U,
-                        const_cast<char*>(bytes.data()));  // only read
-    return cv::imdecode(input, cv::IMREAD_UNCHANGED);
-  } catch (const cv::Exception&) {
-    return {};
-  }
+DecodedPixels Decode(std::string_view bytes) {
+  if (bytes.starts_with("\x89PNG")) return DecodePng(bytes);
+  if (bytes.starts_with("\xFF\xD8")) return DecodeJpeg(bytes);
+  return DecodeOther(bytes);
 }
 
-// One channel of floats in the file's own grey levels.
-std::optional<GrayImage> ToGray(const cv::Mat& decoded) {
-  if (decoded.depth() != CV_8U && decoded.depth() != CV_16U) return std::nullopt;
-  cv::Mat gray;
-  decoded.convertTo(gray, CV_32F);
-  if (gray.channels() == 3)
-    cv::cvtColor(gray, gray, cv::COLOR_BGR2GRAY);
-  else if (gray.channels() == 4)
-    cv::cvtColor(gray, gray, cv::COLOR_BGRA2GRAY);
-  else if (gray.channels() != 1)
-    return std::nullopt;
+// One channel of floats in the file's own grey levels. Row by row: a copy of the whole image as
+// floats would take more memory than all else.
+GrayImage ToGray(const cv::Mat& decoded) {
   GrayImage image;
-  image.width = gray.cols;
-  image.height = gray.rows;
+  image.width = decoded.cols;
+  image.height = decoded.rows;
   image.max_gray = decoded.depth() == CV_8U ? 255.0F : 65535.0F;
-  image.pixels.reserve(gray.total());
-  for (int y = 0; y < gray.rows; ++y)
-    image.pixels.insert(image.pixels.end(), gray.ptr<float>(y), gray.ptr<float>(y) + gray.cols);
+  image.pixels.reserve(decoded.total());
+  cv::Mat row;
+  for (int y = 0; y < decoded.rows; ++y) {
+    decoded.row(y).convertTo(row, CV_32F);
+    if (row.channels() == 3) cv::cvtColor(row, row, cv::COLOR_BGR2GRAY);
+    image.pixels.insert(image.pixels.end(), row.ptr<float>(), row.ptr<float>() + row.cols);
+  }
   return image;
 }
 
@@ -74,25 +65,27 @@ Status CheckImageBytes(const std::string& name, std::string_view bytes, int widt
   const auto stated = SizeFromHeader(bytes);
   if (!stated) return BadInput(name + ": the file does not begin like an image" + kFormatRemedy);
   TELESTRAIN_RETURN_IF_ERROR(CheckSize(name, *stated, {width_px, height_px}));
-  if (IsCutShort(bytes)) return Undecodable(name);
-  return {};
+  const std::string fault = StructureFault(bytes);
+  return fault.empty() ? Status() : Status(Unfit(name, fault));
 }
 
 Result<GrayImage> ReadGrayImage(const std::filesystem::path& path, int width_px, int height_px) {
-  TELESTRAIN_ASSIGN_OR_RETURN(const std::string bytes, ReadFile(path));
+  TELESTRAIN_ASSIGN_OR_RETURN(const std::string bytes, ReadFile(path, kMostImageBytes));
   return DecodeGrayImage(path.string(), bytes, width_px, height_px);
 }
 
 Result<GrayImage> DecodeGrayImage(const std::string& name, const std::string& bytes, int width_px,
                                   int height_px) {
   TELESTRAIN_RETURN_IF_ERROR(CheckImageBytes(name, bytes, width_px, height_px));
-  const cv::Mat decoded = Decode(bytes);
-  if (decoded.empty()) return Undecodable(name);
-  TELESTRAIN_RETURN_IF_ERROR(CheckSize(name, {decoded.cols, decoded.rows}, {width_px, height_px}));
-  auto image = ToGray(decoded);
-  if (!image)
+  const DecodedPixels decoded = Decode(bytes);
+  if (!decoded.failure.empty()) return Unfit(name, "is damaged, " + decoded.failure);
+  const cv::Mat& pixels = decoded.pixels;
+  TELESTRAIN_RETURN_IF_ERROR(CheckSize(name, {pixels.cols, pixels.rows}, {width_px, height_px}));
+  const bool is_known = (pixels.depth() == CV_8U || pixels.depth() == CV_16U) &&
+                        (pixels.channels() == 1 || pixels.channels() == 3);
+  if (!is_known)
     return BadInput(name + ": the pixels are neither 8- nor 16-bit grey or colour" + kFormatRemedy);
-  return std::move(*image);
+  return ToGray(pixels);
 }
 
 }  // namespace telestrain

@@ -1,26 +1,15 @@
 #include "target/image_header.h"
 
 #include <cctype>
-#include <cstdint>
 #include <cstdlib>
-#include <string>
+
+#include "target/file_numbers.h"
 
 namespace telestrain {
 namespace {
 
-// `count` bytes at `at` as an unsigned number; 0 beyond the end.
-std::uint32_t Unsigned(std::string_view bytes, std::size_t at, std::size_t count, bool big_endian) {
-  if (at > bytes.size() || bytes.size() - at < count) return 0;
-  std::uint32_t value = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t from = big_endian ? at + i : at + count - 1 - i;
-    value = (value << 8) | static_cast<unsigned char>(bytes[from]);
-  }
-  return value;
-}
-
 std::optional<ImageSize> BmpSize(std::string_view bytes) {
-  const auto height = static_cast<std::int32_t>(Unsigned(bytes, 22, 4, false));
+  const auto height = static_cast<int>(Unsigned(bytes, 22, 4, false));
   return ImageSize{Unsigned(bytes, 18, 4, false), std::llabs(height)};  // top-down if negative
 }
 
@@ -91,12 +80,6 @@ std::optional<ImageSize> SizeFromHeader(std::string_view bytes) {
     size = JpegSize(bytes);
   if (size && (size->width_px <= 0 || size->height_px <= 0)) return std::nullopt;
   return size;
-}
-
-bool IsCutShort(std::string_view bytes) {
-  if (bytes.starts_with("\xFF\xD8")) return bytes.rfind("\xFF\xD9") == std::string_view::npos;
-  if (bytes.starts_with("\x89PNG\r\n\x1A\n")) return bytes.rfind("IEND") == std::string_view::npos;
-  return false;
 }
 
 }  // namespace telestrain

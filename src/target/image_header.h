@@ -14,8 +14,4 @@ struct ImageSize {
 // one or the header is damaged.
 std::optional<ImageSize> SizeFromHeader(std::string_view bytes);
 
-// True for a PNG or JPEG that breaks off: its last segment is missing. (A JPEG cut short decodes
-// without complaint, with its rest in grey.)
-bool IsCutShort(std::string_view bytes);
-
 }  // namespace telestrain

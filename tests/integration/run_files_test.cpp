@@ -6,6 +6,7 @@
 #include "integration/small_run.h"
 #include "session/session.h"
 #include "target/image_header.h"
+#include "target/image_structure.h"
 
 namespace telestrain::testing_support {
 namespace {
@@ -176,7 +177,7 @@ TEST_F(RunFiles, PicturesAreWideEnoughForPrint) {
     const std::string png = ReadAll(Results() / "pictures" / (std::string(name) + ".png"));
     ASSERT_TRUE(SizeFromHeader(png).has_value()) << name;
     EXPECT_EQ(SizeFromHeader(png)->width_px, 2008) << name;  // 170 mm at 300 dpi
-    EXPECT_FALSE(IsCutShort(png)) << name;
+    EXPECT_EQ(StructureFault(png), "") << name;
   }
   EXPECT_TRUE(ReadAll(Results() / "report.pdf").starts_with("%PDF-"));
 }

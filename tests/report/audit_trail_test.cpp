@@ -63,7 +63,7 @@ class AuditTrailTest : public ::testing::Test {
       ASSERT_TRUE(trail->Append(types[i], {{"value", 1200.5 + static_cast<double>(i)}}, kTime));
     ASSERT_TRUE(trail->Sync().ok());
   }
-  std::string Text() const { return *ReadFile(File()); }
+  std::string Text() const { return *ReadFile(File(), kMostResultBytes); }
   // What is said of the trail after `change` of its lines.
   std::string ReasonAfter(const std::function<void(std::vector<std::string>&)>& change) const {
     auto lines = LinesOf(Text());

@@ -14,7 +14,7 @@ namespace telestrain::visual_test {
 // Replaces the first `from` in a file of the fixture.
 inline void Damage(const std::filesystem::path& path, const std::string& from,
                    const std::string& to) {
-  std::string text = ReadFile(path).value();
+  std::string text = ReadFile(path, kMostResultBytes).value();
   const auto at = text.find(from);
   if (at == std::string::npos) throw std::runtime_error(path.string() + " has no " + from);
   const Status written = WriteFileAtomically(path, text.replace(at, from.size(), to));
@@ -22,7 +22,7 @@ inline void Damage(const std::filesystem::path& path, const std::string& from,
 }
 
 inline nlohmann::ordered_json JsonOf(const std::filesystem::path& path) {
-  return nlohmann::ordered_json::parse(ReadFile(path).value());
+  return nlohmann::ordered_json::parse(ReadFile(path, kMostResultBytes).value());
 }
 
 inline void EditJson(const std::filesystem::path& path,

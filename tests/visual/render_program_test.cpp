@@ -13,7 +13,7 @@ using testing_support::RunTelestrain;
 using testing_support::Surroundings;
 
 std::string Bytes(const std::filesystem::path& path) {
-  const auto bytes = ReadFile(path);
+  const auto bytes = ReadFile(path, kMostResultBytes);
   EXPECT_TRUE(bytes.ok()) << path;
   return bytes.ok() ? *bytes : std::string();
 }

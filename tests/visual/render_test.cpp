@@ -29,7 +29,7 @@ Status Render(const std::filesystem::path& folder, const RenderOptions& options 
 }
 
 std::string Bytes(const std::filesystem::path& path) {
-  const auto bytes = ReadFile(path);
+  const auto bytes = ReadFile(path, kMostResultBytes);
   EXPECT_TRUE(bytes.ok()) << path;
   return bytes.ok() ? *bytes : std::string();
 }

@@ -30,7 +30,7 @@ const std::filesystem::path& Results() {
 }
 
 std::string Bytes(const std::filesystem::path& path) {
-  const auto bytes = ReadFile(path);
+  const auto bytes = ReadFile(path, kMostResultBytes);
   EXPECT_TRUE(bytes.ok()) << path;
   return bytes.ok() ? *bytes : std::string();
 }

@@ -54,6 +54,21 @@ TEST(CsvTest, QuotesProtectCommasAndQuotes) {
   EXPECT_EQ(table.rows[0].cells, (std::vector<std::string>{"x, y", "say \"yes\""}));
 }
 
+TEST(CsvTest, RefusesControlCharactersByTheirByte) {
+  EXPECT_EQ(
+      MessageOf("a,b\n1,2\x1b[31m\n"),
+      "t.csv:2: byte 4 of the line is the control character \\x1b; remove it, or save the file "
+      "as UTF-8");
+}
+
+TEST(CsvTest, RefusesEndlessHeaders) {
+  std::string header = "c0";
+  for (std::size_t i = 1; i < kMostColumns; ++i) header += ",c" + std::to_string(i);
+  EXPECT_EQ(Parsed(header + "\n").columns.size(), kMostColumns);
+  EXPECT_NE(MessageOf(header + ",more\n").find("has 257 columns, the limit is 256"),
+            std::string::npos);
+}
+
 TEST(CsvTest, IgnoresAByteOrderMarkAndFindsColumns) {
   const CsvTable table = Parsed("\xEF\xBB\xBFimage,pose\n");
   EXPECT_EQ(table.Find("image"), 0);

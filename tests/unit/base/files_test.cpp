@@ -1,6 +1,7 @@
 #include "base/files.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <iterator>
@@ -20,7 +21,7 @@ TEST(FilesTest, BytesReadBackAsWritten) {
   for (int i = 0; i < 70000; ++i) bytes += static_cast<char>(i * 7 % 256);
   for (const std::string& content : {bytes, std::string(), std::string("\r\n\0x", 4)}) {
     ASSERT_TRUE(WriteFileAtomically(folder.path() / "f", content).ok());
-    EXPECT_EQ(*ReadFile(folder.path() / "f"), content);
+    EXPECT_EQ(*ReadFile(folder.path() / "f", kMostResultBytes), content);
   }
   EXPECT_EQ(EntryCount(folder.path()), 1) << "a temporary file was left";
 }
@@ -47,7 +48,7 @@ TEST(FilesTest, AReplacedFileKeepsItsPermissionsAndNoLinkIsFollowed) {
   fs::create_symlink(file, link);
   fs::create_symlink(file, link.string() + ".part" + std::to_string(::getpid()));
   ASSERT_TRUE(WriteFileAtomically(link, "other").ok());
-  EXPECT_EQ(*ReadFile(file), "new");
+  EXPECT_EQ(*ReadFile(file, kMostResultBytes), "new");
   EXPECT_FALSE(fs::is_symlink(link));
   EXPECT_EQ(EntryCount(folder.path()), 2);
 }
@@ -59,13 +60,13 @@ TEST(FilesTest, WritingIntoNoFolderFails) {
 
 TEST(FilesTest, ReadingNamesPathAndReason) {
   const ScratchFolder folder("files_reading");
-  const auto missing = ReadFile(folder.path() / "missing");
+  const auto missing = ReadFile(folder.path() / "missing", kMostResultBytes);
   ASSERT_FALSE(missing.ok());
   EXPECT_EQ(missing.error().kind, ErrorKind::kBadInput);
   EXPECT_NE(missing.error().message.find("missing: cannot be read: No such file"),
             std::string::npos)
       << missing.error().message;
-  const auto is_folder = ReadFile(folder.path());
+  const auto is_folder = ReadFile(folder.path(), kMostResultBytes);
   ASSERT_FALSE(is_folder.ok());
   EXPECT_NE(is_folder.error().message.find("is a folder"), std::string::npos);
 }
@@ -76,10 +77,36 @@ TEST(FilesTest, BadPathsAndFailedReadsAreBadInput) {
   // The first page of a process' own memory is a file that opens and cannot be read.
   for (const auto& path : {folder.path() / std::string(5000, 'x'), folder.path() / "loop",
                            std::filesystem::path("/proc/self/mem")}) {
-    const auto bytes = ReadFile(path);
+    const auto bytes = ReadFile(path, kMostResultBytes);
     ASSERT_FALSE(bytes.ok()) << path;
     EXPECT_EQ(bytes.error().kind, ErrorKind::kBadInput);
   }
+}
+
+TEST(FilesTest, NeverWaitsForAPipeAndNeverReadsADevice) {
+  const ScratchFolder folder("files_pipe");
+  const auto pipe = folder.path() / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  for (const auto& [path, kind] : {std::pair{pipe, "is a named pipe"},
+                                   std::pair{std::filesystem::path("/dev/zero"), "is a device"}})
+    for (const auto& error :
+         {ReadFile(path, kMostResultBytes).error(), Sha256HexOfFile(path).error()}) {
+      EXPECT_EQ(error.kind, ErrorKind::kBadInput);
+      EXPECT_NE(error.message.find(kind), std::string::npos) << error.message;
+      EXPECT_NE(error.message.find("; give a regular file"), std::string::npos) << error.message;
+    }
+}
+
+TEST(FilesTest, ALimitIsReachedButNotPassed) {
+  const ScratchFolder folder("files_limit");
+  ASSERT_TRUE(WriteFileAtomically(folder.path() / "f", "abcd").ok());
+  EXPECT_EQ(*ReadFile(folder.path() / "f", 4), "abcd");
+  const auto larger = ReadFile(folder.path() / "f", 3);
+  ASSERT_FALSE(larger.ok());
+  EXPECT_NE(larger.error().message.find("has 4 bytes or more, the limit is 3; "), std::string::npos)
+      << larger.error().message;
+  // The system states no size of this one, which is longer.
+  EXPECT_FALSE(ReadFile("/proc/self/maps", 10).ok());
 }
 
 TEST(FilesTest, EnsureFolderMakesParentsAndMayBeRepeated) {

@@ -29,7 +29,7 @@ const Json& Reference() {
     const std::string command =
         "/usr/bin/python3 '" + script + "' '" + path.string() + "' >/dev/null 2>&1";
     Json read = Json::object();
-    if (std::system(command.c_str()) == 0) read = Json::parse(*ReadFile(path));
+    if (std::system(command.c_str()) == 0) read = Json::parse(*ReadFile(path, kMostResultBytes));
     std::filesystem::remove(path);
     return read;
   }();
