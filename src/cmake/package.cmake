@@ -40,8 +40,12 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 # Files that the program opens: fonts of report and pictures, colour profile of the report.
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS
   "fonts-liberation2 | fonts-liberation, fonts-dejavu-core, icc-profiles-free")
-# Chinese reports; OpenGL by EGL (`render --backend egl`).
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "fonts-wqy-zenhei, libegl1, libgl1-mesa-dri")
+# What it loads when it is asked for: OpenCV's codecs (images that are neither PNG nor JPEG), its videos,
+# OpenGL by EGL (`render --backend egl`), the font of Chinese reports. Debian calls OpenCV 4.6 "406".
+string(REGEX REPLACE "^([0-9]+)\\.([0-9])\\..*" "\\1.0\\2." opencv_abi "${OpenCV_VERSION}")
+string(REGEX REPLACE "^([0-9]+)\\.([0-9]+)\\..*" "\\1\\2" opencv_abi "${opencv_abi}")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "libopencv-imgcodecs${opencv_abi}, \
+libopencv-videoio${opencv_abi}, libegl1, libgl1-mesa-dri, fonts-wqy-zenhei")
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION
 "strain of pipes by a telecentric four-view camera
 From images of a camera that sees a pipe in four telecentric views, telestrain
