@@ -36,6 +36,12 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 # Files that the program opens: fonts of report and pictures, colour profile of the report.
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS
   "fonts-liberation2 | fonts-liberation, fonts-dejavu-core, icc-profiles-free")
+# Libraries that the program opens when it needs them, which SHLIBDEPS does not see.
+foreach(library opencv_imgcodecs opencv_videoio)
+  get_target_property(soname ${library} IMPORTED_SONAME_RELEASE)
+  string(REGEX REPLACE "^(lib[a-z]+)_([a-z]+)\\.so\\.([0-9]+)$" "\\1-\\2\\3" package "${soname}")
+  string(APPEND CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS ", ${package}")
+endforeach()
 # Chinese reports; OpenGL by EGL (`render --backend egl`).
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "fonts-wqy-zenhei, libegl1, libgl1-mesa-dri")
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION
