@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/parallel.h"
+#include "base/value_names.h"
 #include "correlation/kernels.h"
 #include "target/image_file.h"
 
@@ -31,6 +32,7 @@ void ProcessSettings::AddTo(CLI::App& app) {
   app.add_option("--threads", threads,
                  "threads that the program works on, 1 to " + std::to_string(kMostThreads) +
                      " (default: one per core); the results do not depend on it")
+      ->type_name(kCount)
       ->envname("TELESTRAIN_THREADS")
       ->check(CLI::Range(1, kMostThreads));
   app.add_option("--vector", vector_level,
