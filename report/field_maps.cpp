@@ -60,6 +60,12 @@ void DrawMap(PageFlow& flow, const PageBox& area, const FieldMap& map, const Col
   pdf.StrokeBox(area, {ColorOf(0x404040), 0.6});
 }
 
+// Whether `count` values fill that many columns and rows, both whole numbers.
+bool FillsGrid(std::size_t count, std::optional<double> columns, std::optional<double> rows) {
+  return columns && rows && *columns >= 1 && *rows >= 1 && std::floor(*columns) == *columns &&
+         std::floor(*rows) == *rows && static_cast<double>(count) == *columns * *rows;
+}
+
 // The map of one view of mrcal.json, of the list `key`. Empty when it is not one.
 std::optional<FieldMap> MapOf(const Json& view, const char* key) {
   const Json& regional = EntryAt(view, "/regional");
@@ -68,10 +74,8 @@ std::optional<FieldMap> MapOf(const Json& view, const char* key) {
   const auto step_y_px = NumberAt(regional, "/step_y_px");
   const Json& values = ListAt(regional, key);
   const Json& scalars = ListAt(regional, "/scalars");
-  if (!columns || !rows || !step_x_px || !step_y_px || *columns < 1 || *rows < 1) return {};
-  if (*step_x_px <= 0 || *step_y_px <= 0 || scalars.size() != values.size() ||
-      static_cast<double>(values.size()) != *columns * *rows)
-    return {};
+  if (!FillsGrid(values.size(), columns, rows) || scalars.size() != values.size()) return {};
+  if (!step_x_px || !step_y_px || *step_x_px <= 0 || *step_y_px <= 0) return {};
   FieldMap map{"", static_cast<int>(*columns), static_cast<int>(*rows), *step_x_px, *step_y_px, {}};
   for (std::size_t i = 0; i < values.size(); ++i) {
     const std::string at = "/" + std::to_string(i);
@@ -101,9 +105,8 @@ std::vector<FieldMap> UncertaintyMapsOf(const ReportContext& context, const Json
     const auto step_x_px = NumberAt(entry, "/step_x_px");
     const auto step_y_px = NumberAt(entry, "/step_y_px");
     const Json& values = ListAt(entry, key);
-    if (!columns || !rows || !step_x_px || !step_y_px || *step_x_px <= 0 || *step_y_px <= 0 ||
-        *columns < 2 || static_cast<double>(values.size()) != *columns * *rows)
-      continue;
+    if (!FillsGrid(values.size(), columns, rows) || *columns < 2) continue;
+    if (!step_x_px || !step_y_px || *step_x_px <= 0 || *step_y_px <= 0) continue;
     FieldMap map{context.layout.Say("View") + " " + TextAt(entry, "/view", "?"),
                  static_cast<int>(*columns),
                  static_cast<int>(*rows),

@@ -25,6 +25,14 @@ double RoundDown(double value) {
   return power;
 }
 
+// Values of a damaged file may be any; sums and ratios of these stay doubles.
+double Bounded(double value, bool logarithmic) {
+  constexpr double kLargest = 1e100;
+  if (std::isnan(value)) return logarithmic ? 1 : 0;
+  if (logarithmic && value > 0) return std::clamp(value, 1 / kLargest, kLargest);
+  return std::clamp(value, -kLargest, kLargest);
+}
+
 std::string Superscript(int number) {
   static const char* const kDigits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
   std::string text = number < 0 ? "⁻" : "";
@@ -41,8 +49,8 @@ std::string DecadeLabel(int digit, int exponent, bool as_power) {
 }  // namespace
 
 PlotScale::PlotScale(const PlotAxis& axis, double length_pt, double spacing_pt)
-    : low_(std::min(axis.low, axis.high)),
-      high_(std::max(axis.low, axis.high)),
+    : low_(Bounded(std::min(axis.low, axis.high), axis.logarithmic)),
+      high_(Bounded(std::max(axis.low, axis.high), axis.logarithmic)),
       logarithmic_(axis.logarithmic) {
   const double most_ticks = std::floor(length_pt / spacing_pt);
   if (logarithmic_)
@@ -53,8 +61,9 @@ PlotScale::PlotScale(const PlotAxis& axis, double length_pt, double spacing_pt)
 
 void PlotScale::ChooseLinear(const PlotAxis& axis, double most_ticks) {
   if (!(high_ - low_ > 1e-12 * std::max(1.0, std::abs(high_)))) {
-    low_ -= 1;
-    high_ += 1;
+    const double half = std::max(1.0, 1e-9 * std::abs(high_));  // 1 is nothing beside 1e17
+    low_ -= half;
+    high_ += half;
   }
   step_ = RoundStep((high_ - low_) / most_ticks);
   if (axis.whole_numbers) step_ = std::max(1.0, step_);

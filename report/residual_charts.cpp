@@ -37,11 +37,14 @@ struct Mean {
 std::map<std::pair<int, int>, Mean> CellMeans(const std::vector<Residual>& residuals,
                                               const std::string& view, const Region& region) {
   const double cell_px = std::max(region.width, region.height) / kCellsAcross;
+  // A corner far outside the region is a fault of the file; it has a cell of its own.
+  const auto cell = [cell_px](double place_px) {
+    return static_cast<int>(std::clamp(place_px / cell_px, -1e6, 1e6));
+  };
   std::map<std::pair<int, int>, Mean> cells;
   for (const Residual& residual : residuals) {
     if (residual.view != view) continue;
-    Mean& mean = cells[{static_cast<int>((residual.u_px - region.x) / cell_px),
-                        static_cast<int>((residual.v_px - region.y) / cell_px)}];
+    Mean& mean = cells[{cell(residual.u_px - region.x), cell(residual.v_px - region.y)}];
     mean.u += residual.u_px;
     mean.v += residual.v_px;
     mean.du += residual.du_px;

@@ -17,7 +17,8 @@ Json PixelCell(const Json& json, const std::string& pointer) {
 // The arrow that explains the scale of the residual field: a round length near half the RMS, so
 // that the means of some ten residuals draw well below their neighbours.
 void AddResidualArrow(double rms_px, ResultsDraft& draft) {
-  if (rms_px <= 0) return;
+  constexpr double kLeast_px = 1e-12;  // doubles do not resolve places on a sensor more finely
+  if (rms_px < kLeast_px) return;
   const double power = std::pow(10, std::floor(std::log10(rms_px / 2)));
   const double digit = rms_px / 2 / power;
   Quantity arrow;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 
 #include "base/check.h"
 #include "base/numbers.h"
@@ -12,14 +13,18 @@ namespace {
 
 constexpr int kUncertaintyDigits = 2;
 constexpr int kMostDecimals = 15;
+constexpr int kMostPlaces = 290;  // beyond, scaling by a power of ten would leave a double's range
 
 // The tiny factor keeps log10 of an exact power of ten from falling below its integer.
 int DecimalExponent(double value) {
-  return static_cast<int>(std::floor(std::log10(std::abs(value) * (1 + 1e-12))));
+  const double raised = std::abs(value) * (1 + 1e-12);
+  return static_cast<int>(
+      std::floor(std::log10(std::min(raised, std::numeric_limits<double>::max()))));
 }
 
 // Rounds to `decimals` places, which may be negative (tens, hundreds, ...).
 double RoundToDecimals(double value, int decimals) {
+  if (std::abs(decimals) > kMostPlaces) return value;
   const double scale = std::pow(10.0, std::abs(decimals));
   return decimals >= 0 ? std::round(value * scale) / scale : std::round(value / scale) * scale;
 }

@@ -1,6 +1,7 @@
 #include "report/text_filling.h"
 
 #include <kainjow/mustache.hpp>
+#include <string_view>
 
 #include "base/check.h"
 
@@ -25,6 +26,19 @@ Data DataOf(const Json& json) {
   return Data(TextAt(json, ""));
 }
 
+constexpr std::size_t kMostSections = 100;
+
+// How many "{{", blanks apart, have one of `signs` behind them.
+std::size_t TagsWith(const std::string& text, std::string_view signs) {
+  std::size_t count = 0;
+  for (std::size_t open = text.find("{{"); open != std::string::npos;
+       open = text.find("{{", open + 1)) {
+    const std::size_t sign = text.find_first_not_of(" \t\n\v\f\r", open + 2);
+    if (sign != std::string::npos && signs.find(text[sign]) != std::string_view::npos) ++count;
+  }
+  return count;
+}
+
 }  // namespace
 
 std::string FillText(const std::string& text, const Json& values) {
@@ -39,6 +53,11 @@ std::optional<std::string> TextFault(const std::string& text) {
   if (text.find("{{") == std::string::npos) return {};
   if (text.find("{{/") < text.find("{{#") && text.find("{{/") < text.find("{{^"))
     return "'{{/' closes what no '{{#' or '{{^' opened; an entry is named {{document.number}}";
+  if (TagsWith(text, "=") > 0)
+    return "'{{=' changes the signs that names stand in, which no template may";
+  // The library calls itself for each of them.
+  if (TagsWith(text, "#^") > kMostSections)
+    return "has more than " + std::to_string(kMostSections) + " of '{{#' and '{{^'; divide it";
   const kainjow::mustache::mustache pattern(text);
   if (pattern.is_valid()) return {};
   return pattern.error_message();

@@ -17,6 +17,7 @@ struct Known {
 };
 
 constexpr std::string_view kPixel = "px";
+constexpr int kLargestPower = 400;  // of ten; no double has more
 
 // D-SI guide 1.3, appendix A. "\one" takes neither prefix nor exponent, hence the powers of ten.
 constexpr std::array kUnits = {Known{"mm", "\\milli\\metre"},
@@ -104,7 +105,9 @@ std::optional<std::string> DsiNumber(const std::string& printed, int power_of_te
   if (mark != std::string::npos) {
     std::string exponent = printed.substr(mark + 1);
     if (exponent.starts_with('+')) exponent.erase(0, 1);
-    power_of_ten += ParseInt(exponent).value_or(0);
+    const auto power = ParseInt(exponent);
+    if (!power || std::abs(*power) > kLargestPower) return std::nullopt;
+    power_of_ten += *power;
   }
   const std::string digits = printed.substr(0, mark);
   return power_of_ten == 0 ? digits : digits + "E" + std::to_string(power_of_ten);

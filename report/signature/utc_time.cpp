@@ -7,12 +7,18 @@
 namespace telestrain {
 namespace {
 
+// The years that four digits can say.
+constexpr long long kFirst_s = -62167219200, kLast_s = 253402300799;
+
+// `format` takes year to second. Not strftime: it writes the year 987 with three digits.
 std::string Formatted(long long time_s, const char* format) {
   const auto time = static_cast<std::time_t>(time_s);
   std::tm parts{};
   ::gmtime_r(&time, &parts);
-  char text[64];
-  return {text, std::strftime(text, sizeof text, format, &parts)};
+  char text[128];
+  std::snprintf(text, sizeof text, format, parts.tm_year + 1900, parts.tm_mon + 1, parts.tm_mday,
+                parts.tm_hour, parts.tm_min, parts.tm_sec);
+  return text;
 }
 
 int Number(const std::string& text) { return text.empty() ? 0 : std::stoi(text); }
@@ -36,8 +42,10 @@ std::optional<long long> TimeOf(const std::smatch& match) {
 
 }  // namespace
 
-std::string IsoTime(long long time_s) { return Formatted(time_s, "%Y-%m-%dT%H:%M:%SZ"); }
-std::string PdfTime(long long time_s) { return Formatted(time_s, "D:%Y%m%d%H%M%SZ"); }
+std::string IsoTime(long long time_s) {
+  return Formatted(time_s, "%04d-%02d-%02dT%02d:%02d:%02dZ");
+}
+std::string PdfTime(long long time_s) { return Formatted(time_s, "D:%04d%02d%02d%02d%02d%02dZ"); }
 
 std::optional<long long> ParseIsoTime(const std::string& text) {
   static const std::regex kForm(
@@ -47,7 +55,8 @@ std::optional<long long> ParseIsoTime(const std::string& text) {
   const auto time = TimeOf(match);
   if (!time) return std::nullopt;
   const long long offset_s = Number(match[8]) * 3600LL + Number(match[9]) * 60LL;
-  return match[7] == "-" ? *time + offset_s : *time - offset_s;
+  const long long time_s = match[7] == "-" ? *time + offset_s : *time - offset_s;
+  return time_s < kFirst_s || time_s > kLast_s ? std::nullopt : std::optional(time_s);
 }
 
 std::optional<long long> ParsePdfTime(const std::string& text) {

@@ -1,8 +1,7 @@
 #include <algorithm>
-#include <array>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
+#include "app/list_arguments.h"
 #include "app/results_folder.h"
 #include "app/step_options.h"
 #include "app/step_record.h"
@@ -116,23 +115,6 @@ Status RequireSameViews(const EarlierCalibration& earlier, const Session& sessio
                   ": has other views than the session; compare calibrations of one instrument");
 }
 
-Result<PixelRegion> ReadRegion(const std::string& text) {
-  std::array<int, 4> numbers{};
-  std::size_t count = 0;
-  std::istringstream items(text);
-  bool is_whole = true;
-  for (std::string item; std::getline(items, item, ','); ++count) {
-    const auto number = ParseInt(item);
-    is_whole = is_whole && number.has_value();
-    if (number && count < numbers.size()) numbers[count] = *number;
-  }
-  if (!is_whole || count != numbers.size() || numbers[2] <= 0 || numbers[3] <= 0)
-    return Error{ErrorKind::kUsage, "--cull '" + text +
-                                        "' is no region; give four whole numbers X,Y,WIDTH,HEIGHT "
-                                        "in pixels of the sensor, such as 0,0,200,972"};
-  return PixelRegion{numbers[0], numbers[1], numbers[2], numbers[3]};
-}
-
 StepRecord CalibrateRecord(const CalibrateChoices& choices) {
   StepRecord record{"calibrate",
                     OptionsJson(choices.arguments),
@@ -153,8 +135,7 @@ Result<CalibrateChoices> ReadChoices(const CalibrateArguments& arguments) {
   if (arguments.outliers == "mrcal") choices.options.outliers.scale = OutlierScale::kMrcal;
   choices.options.board_warp = arguments.board_warp;
   for (const std::string& text : arguments.culled) {
-    TELESTRAIN_ASSIGN_OR_RETURN(const PixelRegion region, ReadRegion(text));
-    choices.options.culled.push_back(region);
+    TELESTRAIN_ASSIGN_OR_RETURN(choices.options.culled.emplace_back(), CulledRegion(text));
   }
   if (arguments.compare.empty()) return choices;
   EarlierCalibration earlier{arguments.compare, {}, {}};

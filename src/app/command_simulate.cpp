@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 
 #include "app/command.h"
+#include "app/list_arguments.h"
 #include "base/numbers.h"
 #include "base/value_names.h"
 #include "simulation/virtual_experiment.h"
@@ -75,14 +76,8 @@ class SimulateCommand : public Command {
 
   Status ReadDocument() {
     for (const std::string& entry : document_) {
-      const std::size_t end = entry.find('=');
-      const std::string key = entry.substr(0, end);
-      if (end == std::string::npos || key.empty() ||
-          key.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_") != std::string::npos)
-        return Error{ErrorKind::kUsage, "--document '" + entry +
-                                            "': KEY=TEXT is wanted, with a key of small letters, "
-                                            "digits and underscores"};
-      options_.document[key] = entry.substr(end + 1);
+      TELESTRAIN_ASSIGN_OR_RETURN(const auto key_and_text, DocumentEntry(entry));
+      options_.document[key_and_text.first] = key_and_text.second;
     }
     return {};
   }

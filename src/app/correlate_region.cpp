@@ -1,9 +1,8 @@
 #include "app/correlate_region.h"
 
 #include <algorithm>
-#include <limits>
 
-#include "base/numbers.h"
+#include "app/list_arguments.h"
 #include "correlation/texture_region.h"
 
 namespace telestrain {
@@ -11,39 +10,6 @@ namespace {
 
 std::string SizeText(int width, int height) {
   return std::to_string(width) + " x " + std::to_string(height) + " px";
-}
-
-// The comma-separated whole numbers, or nothing.
-std::optional<std::vector<int>> NumbersIn(const std::string& text) {
-  std::vector<int> numbers;
-  for (std::size_t start = 0; start <= text.size();) {
-    const std::size_t comma = std::min(text.find(',', start), text.size());
-    const auto number = ParseInt(std::string_view(text).substr(start, comma - start));
-    if (!number) return std::nullopt;
-    numbers.push_back(*number);
-    start = comma + 1;
-  }
-  return numbers;
-}
-
-Result<PixelRegion> RegionOf(const std::string& text, const std::vector<int>& numbers,
-                             const GrayImage& image) {
-  const std::string wanted = "--region " + text + ": ";
-  if (numbers.size() != 4)
-    return WrongUsage(wanted + std::to_string(numbers.size()) +
-                      " numbers; wanted are four: x,y,width,height in px");
-  const PixelRegion region{numbers[0], numbers[1], numbers[2], numbers[3]};
-  if (region.width < 1 || region.height < 1)
-    return WrongUsage(wanted + "the region is empty; width and height are at least 1 px");
-  // As long long: the sum of two numbers of the command line may leave the range of int.
-  const long long right = static_cast<long long>(region.x) + region.width;
-  const long long bottom = static_cast<long long>(region.y) + region.height;
-  if (region.x < 0 || region.y < 0 || right > image.width || bottom > image.height)
-    return WrongUsage(wanted + "reaches from (" + std::to_string(region.x) + ", " +
-                      std::to_string(region.y) + ") to (" + std::to_string(right - 1) + ", " +
-                      std::to_string(bottom - 1) + ") px, the image has " +
-                      SizeText(image.width, image.height) + "; give a region inside it");
-  return region;
 }
 
 // The smallest region that holds all pixels inside; of none an empty one.
@@ -99,8 +65,9 @@ Status SetRegion(const std::string& region, const GrayImage& reference, int subs
                                 " px could follow; give the region as x,y,w,h or as a mask");
     return UseMask(TextureRegion(reference, subset_px), empty, setup);
   }
-  if (const auto numbers = NumbersIn(region)) {
-    TELESTRAIN_ASSIGN_OR_RETURN(setup->options.region, RegionOf(region, *numbers, reference));
+  if (const auto numbers = WholeNumbersIn(region)) {
+    TELESTRAIN_ASSIGN_OR_RETURN(setup->options.region,
+                                RegionInside(region, *numbers, reference.width, reference.height));
     return {};
   }
   if (region.find_first_not_of("0123456789,.- ") == std::string::npos)

@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <set>
 #include <sstream>
+#include <string_view>
 
 #include "base/files.h"
 #include "base/utf8.h"
 
 namespace telestrain {
 namespace {
+
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 std::string Trim(const std::string& text) {
   const auto first = text.find_first_not_of(" \t\r");
@@ -107,7 +110,7 @@ Status CheckHeader(const CsvTable& table, int line) {
 // Whether a cell would read back changed without quotes.
 bool NeedsQuotes(const std::string& cell, bool is_alone) {
   return cell.find_first_of(",\"\n#") != std::string::npos || Trim(cell) != cell ||
-         (is_alone && cell.empty());
+         cell.starts_with(kByteOrderMark) || (is_alone && cell.empty());
 }
 
 }  // namespace
@@ -120,7 +123,8 @@ int CsvTable::Find(const std::string& column) const {
 Result<CsvTable> ParseCsv(const std::string& name, const std::string& text) {
   CsvTable table;
   table.name = name;
-  std::istringstream lines(text.starts_with("\xEF\xBB\xBF") ? text.substr(3) : text);
+  const bool is_marked = text.starts_with(kByteOrderMark);
+  std::istringstream lines(is_marked ? text.substr(kByteOrderMark.size()) : text);
   std::string line;
   for (int number = 1; std::getline(lines, line); ++number) {
     TELESTRAIN_RETURN_IF_ERROR(CheckEncoding(table, number, line));

@@ -14,6 +14,10 @@ namespace telestrain {
 // it.
 inline constexpr char kCornerListSigns[] = " \t\n\v\f\r#";
 
+// What is read of a session, from session.toml or from its record.
+inline constexpr int kLargestSensor_px = 65536;
+inline constexpr int kFewestCorners = 3, kMostCorners = 200;  // of a board, along one side
+
 // The parts of reading a session, in the order in which they run. Private to the module.
 
 // A [[view]] as written: its geometry by vectors, by mirrors, or both.

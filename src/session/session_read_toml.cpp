@@ -14,7 +14,6 @@ namespace telestrain {
 namespace {
 
 constexpr char kSchema[] = "telestrain.session/1";
-constexpr double kLargestSensor_px = 65536;
 constexpr double kLargestLength_mm = 1e5;
 constexpr double kLargestUncertainty_um = 1e4;
 constexpr double kSmallestStageZ = 0.5;  // cosine of 60 degrees
@@ -93,8 +92,9 @@ Status ReadBoard(const TomlNode& node, TargetSpec& target) {
 
 FieldReader TargetTable(TargetSpec& target) {
   const auto uncertainty = From(0, kLargestUncertainty_um);
-  return Table({Required("columns", Whole(target.columns, From(3, 200))),
-                Required("rows", Whole(target.rows, From(3, 200))),
+  const auto corners = From(kFewestCorners, kMostCorners);
+  return Table({Required("columns", Whole(target.columns, corners)),
+                Required("rows", Whole(target.rows, corners)),
                 Required("square_mm", Number(target.square_mm, Above(0, 1000))),
                 Optional("sigma_square_um", Number(target.sigma_square_um, uncertainty)),
                 Optional("sigma_separation_um", Number(target.sigma_separation_um, uncertainty)),
@@ -176,6 +176,8 @@ bool IsDateKey(const std::string& key) {
 
 // "2026-01-17", ISO 8601, and a time if it likes; the month has to have such a day.
 bool IsIsoDate(const std::string& text) {
+  constexpr std::size_t kLongest = 40;  // std::regex calls itself for every character
+  if (text.size() > kLongest) return false;
   static const std::regex kDate("([0-9]{4})-([0-9]{2})-([0-9]{2})([T ][0-9:.Z+-]+)?");
   std::smatch parts;
   if (!std::regex_match(text, parts, kDate)) return false;

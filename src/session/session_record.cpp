@@ -1,7 +1,10 @@
 #include "session/session_record.h"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
+
+#include "session/session_parts.h"
 
 namespace telestrain {
 namespace {
@@ -14,6 +17,17 @@ Json ArrayOf(const Eigen::Vector3d& vector) { return {vector.x(), vector.y(), ve
 
 Eigen::Vector3d VectorOf(const Json& json) {
   return {json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>()};
+}
+
+// A whole number within the limits that session.toml has too: sizes of images and lists are made of
+// it. Throws nlohmann::json::out_of_range.
+int WholeOf(const Json& json, int least, int most) {
+  const double value = json.get<double>();
+  if (value >= least && value <= most && std::floor(value) == value) return static_cast<int>(value);
+  throw Json::out_of_range::create(401,
+                                   json.dump() + " is no whole number from " +
+                                       std::to_string(least) + " to " + std::to_string(most),
+                                   &json);
 }
 
 Json CameraJson(const PhysicalCamera& camera) {
@@ -63,8 +77,9 @@ NominalView ViewOf(const Json& json) {
   view.name = json.at("name").get<std::string>();
   view.group = json.at("group").get<std::string>();
   const Json& region = json.at("region_px");
-  view.region = {region.at(0).get<int>(), region.at(1).get<int>(), region.at(2).get<int>(),
-                 region.at(3).get<int>()};
+  view.region = {
+      WholeOf(region.at(0), 0, kLargestSensor_px), WholeOf(region.at(1), 0, kLargestSensor_px),
+      WholeOf(region.at(2), 0, kLargestSensor_px), WholeOf(region.at(3), 0, kLargestSensor_px)};
   view.image_x_in_array = VectorOf(json.at("image_x_in_array"));
   view.image_y_in_array = VectorOf(json.at("image_y_in_array"));
   view.axis_in_array = VectorOf(json.at("axis_in_array"));
@@ -91,8 +106,8 @@ Json TargetJson(const TargetSpec& target) {
 
 TargetSpec TargetOf(const Json& json) {
   TargetSpec target;
-  target.columns = json.at("columns").get<int>();
-  target.rows = json.at("rows").get<int>();
+  target.columns = WholeOf(json.at("columns"), kFewestCorners, kMostCorners);
+  target.rows = WholeOf(json.at("rows"), kFewestCorners, kMostCorners);
   target.square_mm = json.at("square_mm").get<double>();
   target.sigma_square_um = json.at("sigma_square_um").get<double>();
   target.sigma_separation_um = json.at("sigma_separation_um").get<double>();
@@ -223,7 +238,8 @@ Session SessionOfRecord(const Json& record) {
   session.title = record.at("title").get<std::string>();
   session.document = record.at("document").get<std::map<std::string, std::string>>();
   const Json& sensor = record.at("sensor");
-  session.sensor = {sensor.at("width_px").get<int>(), sensor.at("height_px").get<int>(),
+  session.sensor = {WholeOf(sensor.at("width_px"), 1, kLargestSensor_px),
+                    WholeOf(sensor.at("height_px"), 1, kLargestSensor_px),
                     sensor.at("pixel_pitch_um").get<double>()};
   session.lens_magnification = record.at("lens").at("magnification").get<double>();
   session.depth_of_field_mm = record.at("lens").at("depth_of_field_mm").get<double>();

@@ -185,7 +185,7 @@ Result<ViewEntry> ReadViewEntry(const TomlNode& node) {
   TELESTRAIN_RETURN_IF_ERROR(ReadFields(
       node,
       {Required("name", Text(entry.name)), Required("group", Text(entry.group)),
-       Required("region_px", Wholes4(region, From(0, 65536))),
+       Required("region_px", Wholes4(region, From(0, kLargestSensor_px))),
        Optional("image_x_in_array", Direction(entry.image_x)),
        Optional("image_y_in_array", Direction(entry.image_y)),
        Optional("axis_in_array", Direction(entry.axis)),

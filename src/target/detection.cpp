@@ -97,7 +97,9 @@ Result<std::map<CornerKey, Eigen::Matrix2d>> ReadCovariances(const Session& sess
     const auto column = ParseInt(row.cells[2]), line = ParseInt(row.cells[3]);
     const auto uu = ParseDouble(row.cells[4]), uv = ParseDouble(row.cells[5]),
                vv = ParseDouble(row.cells[6]);
-    if (!column || !line || !uu || !uv || !vv || *uu <= 0 || *uu * *vv <= *uv * *uv)
+    const bool is_corner = column && line && *column >= 0 && *column < session.target.columns &&
+                           *line >= 0 && *line < session.target.rows;
+    if (!is_corner || !uu || !uv || !vv || *uu <= 0 || *uu * *vv <= *uv * *uv)
       return BadInput(path.string() + ":" + std::to_string(row.line) +
                       ": is not a corner with a positive covariance; run 'telestrain detect' "
                       "again");

@@ -47,6 +47,13 @@ TEST(JsonSchema, EveryRuleRejectsWhatBreaksItAndNamesPlaceAndRemedy) {
   }
 }
 
+// A matcher that calls itself for every character ran out of stack here.
+TEST(JsonSchema, AWordOfAnyLengthIsRefusedAndNotMatched) {
+  const Json rule = Json::parse(R"({"title": "name", "pattern": "^[^/]+[.]png$"})");
+  EXPECT_EQ(Fault(rule, std::string(150, 'a') + ".png"), "");
+  EXPECT_NE(Fault(rule, std::string(1 << 20, 'a') + ".png").find("at most 200"), std::string::npos);
+}
+
 TEST(JsonSchema, ChoosesTheAlternativeByItsTypeOrItsKeys) {
   const Json rule = Json::parse(R"({
     "title": "block type",

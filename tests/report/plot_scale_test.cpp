@@ -61,5 +61,20 @@ TEST(PlotScale, ALogarithmicAxisOfZeroIsABrokenContract) {
   EXPECT_THROW(Logarithmic(0, 1), std::logic_error);
 }
 
+// Of a damaged file.
+TEST(PlotScale, AnyRangeHasAFewTicks) {
+  const double huge = 1.7e308, nan = std::nan("");
+  const PlotScale scales[] = {{{"", 1e20, 1e20}, 300, 38}, {{"", -huge, huge}, 300, 38},
+                              {{"", huge, huge}, 300, 38}, {{"", nan, nan}, 300, 38},
+                              {{"", 0, 5e-324}, 300, 38},  Logarithmic(5e-324, 5e-324),
+                              Logarithmic(5e-324, huge)};
+  for (const PlotScale& scale : scales) {
+    EXPECT_LT(scale.Ticks().size(), 300u);
+    EXPECT_LT(scale.low(), scale.high());
+    EXPECT_EQ(scale.Share(scale.low()), 0);
+    EXPECT_EQ(scale.Share(scale.high()), 1);
+  }
+}
+
 }  // namespace
 }  // namespace telestrain

@@ -24,5 +24,23 @@ TEST(SessionRecord, AMissingKeyThrows) {
   EXPECT_THROW(SessionOfRecord({{"title", "x"}}), nlohmann::json::exception);
 }
 
+// They become the sizes of lists.
+TEST(SessionRecord, CountsOutsideTheLimitsThrow) {
+  const SampleFolder sample("session_record_counts");
+  const auto session = ReadSession(sample.path());
+  ASSERT_TRUE(session.ok()) << session.error().message;
+  const nlohmann::ordered_json record = SessionRecord(*session);
+  for (const auto& [pointer, value] :
+       {std::pair<const char*, double>("/target/columns", 2147483647),
+        {"/target/rows", -1},
+        {"/target/rows", 3.5},
+        {"/sensor/width_px", 1e300},
+        {"/views/0/region_px/2", 65537}}) {
+    nlohmann::ordered_json wrong = record;
+    wrong[nlohmann::ordered_json::json_pointer(pointer)] = value;
+    EXPECT_THROW(SessionOfRecord(wrong), nlohmann::json::exception) << pointer;
+  }
+}
+
 }  // namespace
 }  // namespace telestrain
