@@ -22,7 +22,10 @@ class DiagnoseCommand : public Command {
   void AddOptions(CLI::App& app) override {
     app.add_option("RESULTS", results_, "results folder with a calibration")->required();
   }
-  Result<int> Run(Console& console) override { return DiagnoseStep(results_, true, console); }
+  Result<int> Run(Console& console) override {
+    TELESTRAIN_ASSIGN_OR_RETURN(const ResultsLock lock, ResultsLock::Take(results_));
+    return DiagnoseStep(results_, true, console);
+  }
 
  private:
   std::string results_;

@@ -2,12 +2,16 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cerrno>
 #include <exception>
 #include <iostream>
 
 #include "app/command.h"
+#include "app/guarded_run.h"
 #include "app/instrument_log.h"
+#include "base/files.h"
 #include "base/numbers.h"
+#include "base/signals.h"
 
 namespace telestrain {
 
@@ -60,12 +64,13 @@ void MeasureArguments::AddWatchTo(CLI::App& app) {
 
 namespace {
 
-constexpr int kUsageExit = 2;
+constexpr int kUsageExit = 2, kOutputExit = 5;
 constexpr int kDefectExit = 70;
 
 constexpr const char* kFooter =
     "Exit codes: 0 accepted, 1 measured but not accepted, 2 wrong usage, 3 bad input data,\n"
-    "4 estimation failed, 5 rendering or report failed, 70 a defect of the program.\n"
+    "4 estimation failed, 5 rendering, report or a write failed (disk, memory, folder in use),\n"
+    "70 a defect of the program, 128+N ended by signal N.\n"
     "Help for one verb: telestrain VERB --help";
 
 std::vector<std::unique_ptr<Command>> AllCommands() {
@@ -109,10 +114,14 @@ int RunCommand(Command& command, const CLI::App& verb, const InstrumentLog& log,
                Console& console) {
   if (const Status open = CheckLog(log); !open)
     return Report(command.Name(), open.error(), console);
-  const Result<int> result = command.Run(console);
   run.verb = command.Name();
   run.results = ResultsOf(verb);
+  const Result<int> result = RunGuarded(command, log, run, console);
   run.exit_code = result ? *result : Report(command.Name(), result.error(), console);
+  // A reader that has gone away wants no more; what was made is made.
+  if (const int failed = console.OutError(); failed != 0 && failed != EPIPE)
+    run.exit_code = Report(command.Name(), CannotWrite("standard output", failed), console);
+  const NoSignalNow until_logged;
   if (const Status logged = LogRun(log, run); !logged)
     return Report(command.Name(), logged.error(), console);
   return run.exit_code;
@@ -162,7 +171,11 @@ int Main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? 0 : kUsageExit;
+    errno = 0;
+    const int code = app.exit(e) == 0 ? 0 : kUsageExit;
+    if (std::cout.flush() || errno == EPIPE) return code;
+    std::cerr << "telestrain: " << CannotWrite("standard output", errno).message << '\n';
+    return kOutputExit;
   }
   Console console(std::cout, std::cerr, ::isatty(STDERR_FILENO) != 0);
   for (const auto& command : commands)
@@ -176,6 +189,8 @@ int Main(int argc, char** argv) {
 }  // namespace telestrain
 
 int main(int argc, char** argv) {
+  telestrain::HandleSignals();
+  telestrain::HandleLackOfMemory();
   try {
     return telestrain::Main(argc, argv);
   } catch (const std::exception& e) {

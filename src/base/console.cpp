@@ -1,6 +1,7 @@
 #include "base/console.h"
 
 #include <algorithm>
+#include <cerrno>
 
 namespace telestrain {
 
@@ -16,7 +17,9 @@ void Console::ClearBar() {
 void Console::Say(const std::string& line) {
   const std::lock_guard lock(mutex_);
   ClearBar();
+  errno = 0;
   out_ << line << '\n' << std::flush;
+  if (!out_ && out_error_ == 0) out_error_ = errno != 0 ? errno : EIO;
 }
 
 void Console::Note(const std::string& line) {
