@@ -133,7 +133,7 @@ Status AuditTrail::Replace() {
   std::string text;
   std::error_code code;
   if (fs::exists(file_, code)) {
-    TELESTRAIN_ASSIGN_OR_RETURN(text, ReadFile(file_));
+    TELESTRAIN_ASSIGN_OR_RETURN(text, ReadFile(file_, kMostLogBytes));
     if (whole_bytes_) text.resize(*whole_bytes_);
   }
   TELESTRAIN_RETURN_IF_ERROR(WriteFileAtomically(file_, text + unsynced_));
