@@ -7,6 +7,7 @@
 #include "viz/egl_context.h"
 #include "viz/gl_symbols.h"
 #include "viz/osmesa_context.h"
+#include "viz/vtk_threads.h"
 
 namespace telestrain::viz {
 namespace {
@@ -14,6 +15,7 @@ namespace {
 void SetMesaEnvironmentOnce() {
   static std::once_flag once;
   std::call_once(once, [] {
+    SetVtkThreads(DefaultThreads());
     setenv("LP_NUM_THREADS", DefaultThreads() > 1 ? "2" : "0", 0);
     setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);
   });

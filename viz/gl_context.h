@@ -26,9 +26,9 @@ class GlContext {
 
 // The one place that knows the backends. The context is current when it returns. Fails
 // (kOutputFailed) with the reason: the executable is linked wrongly or Mesa gives no context. The
-// first call fixes the process's environment for Mesa: two rasteriser threads, or none
-// beside the caller's when DefaultThreads() is 1, unless LP_NUM_THREADS says otherwise (more do not
-// help); no shader cache on disk.
+// first call fixes VTK's threads and the process's environment for Mesa: two rasteriser threads, or
+// none beside the caller's when DefaultThreads() is 1, unless LP_NUM_THREADS says otherwise (more
+// do not help); no shader cache on disk.
 Result<std::unique_ptr<GlContext>> MakeGlContext(GlBackend backend);
 
 }  // namespace telestrain::viz

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/parallel.h"
+#include "base/value_names.h"
 #include "correlation/kernels.h"
 #include "target/image_file.h"
 
@@ -31,6 +32,7 @@ void ProcessSettings::AddTo(CLI::App& app) {
   app.add_option("--threads", threads,
                  "threads that the program works on, 1 to " + std::to_string(kMostThreads) +
                      " (default: one per core); the results do not depend on it")
+      ->type_name(kCount)
       ->envname("TELESTRAIN_THREADS")
       ->check(CLI::Range(1, kMostThreads));
   app.add_option("--vector", vector_level,
@@ -42,7 +44,7 @@ void ProcessSettings::AddTo(CLI::App& app) {
 
 Status ProcessSettings::Apply() const {
   if (threads > 0) SetDefaultThreads(threads);
-  SetImageThreads(DefaultThreads());
+  KeepImagesOnOneThread();
   CallIfThere("omp_set_num_threads", DefaultThreads());
   CallIfThere("openblas_set_num_threads", 1);
   if (vector_level.empty()) return {};

@@ -14,9 +14,10 @@ struct ProcessSettings {
   std::string vector_level;  // of the correlation's passes; empty: the best of this machine
 
   void AddTo(CLI::App& app);
-  // Tells everything that threads: our pool, OpenCV, OpenMP; Mesa asks the pool. Ceres and a BLAS
-  // with threads of its own always work on one, for sums in a fixed order. Fails (kUsage) when this
-  // machine lacks the vector level. Before any other thread works.
+  // Tells everything that threads: our pool and OpenMP; VTK and Mesa ask the pool when they start.
+  // Ceres, OpenCV and a BLAS with threads of its own always work on one, the first and the last for
+  // sums in a fixed order. Fails (kUsage) when this machine lacks the vector level. Before any
+  // other thread works.
   Status Apply() const;
 };
 

@@ -55,11 +55,16 @@ void AddLogOptions(CLI::App& app, InstrumentLog& log) {
       ->envname("TELESTRAIN_INSTRUMENT_KEY");
 }
 
-// The options are read in their order, so --json is known when --version speaks.
-void AddVersionOptions(CLI::App& app, bool& as_json) {
+// The options are read in their order, so all others are known when --version speaks.
+void AddVersionOptions(CLI::App& app, const ProcessSettings& settings, bool& as_json) {
   auto* json = app.add_flag("--json", as_json, "--version as JSON");
   json->needs(app.set_version_flag(
-      "--version", [&as_json] { return as_json ? VersionRecord().dump(2) : VersionText(); },
+      "--version",
+      [&settings, &as_json] {
+        if (const Status applied = settings.Apply(); !applied)
+          throw CLI::ValidationError(applied.error().message);
+        return as_json ? VersionRecord().dump(2) : VersionText();
+      },
       "what this program is, a fact a line, and exit"));
 }
 
@@ -70,11 +75,11 @@ Program::Program() : app_(std::make_unique<CLI::App>()), commands_(AllCommands()
       "telestrain calibrates a telecentric four-view camera array, proves it on a ruler, measures\n"
       "the strain of a pipe with it and writes the PDF acceptance report.");
   app_->name("telestrain");
-  AddVersionOptions(*app_, as_json_);
   app_->require_subcommand(1);
   app_->footer(Footer());
   AddLogOptions(*app_, log_);
   settings_.AddTo(*app_);
+  AddVersionOptions(*app_, settings_, as_json_);
   for (const auto& command : commands_) {
     CLI::App* verb = app_->add_subcommand(command->Name(), command->Summary());
     verb->footer("Example: " + command->Example());

@@ -13,7 +13,7 @@
 #include "calibration/solver_versions.h"
 #include "correlation/kernels.h"
 #include "report/report_libraries.h"
-#include "target/opencv_version.h"
+#include "target/image_libraries.h"
 #include "viz/viz_libraries.h"
 
 namespace telestrain {
@@ -79,22 +79,9 @@ int ReadBuildId(dl_phdr_info* object, std::size_t, void* result) {
   return 1;
 }
 
-const char* VectorInstructions() {
-  switch (correlation::BestVectorLevel()) {
-    case correlation::VectorLevel::kAvx512:
-      return "avx512";
-    case correlation::VectorLevel::kAvx2:
-      return "avx2";
-    case correlation::VectorLevel::kPlain:
-      break;
-  }
-  return "none";
-}
-
 Json LibrariesJson() {
   std::vector<LibraryVersion> all = SolverVersions();
-  all.push_back(OpenCvVersion());
-  for (const auto& list : {viz::Libraries(), ReportLibraries()})
+  for (const auto& list : {ImageLibraries(), viz::Libraries(), ReportLibraries()})
     all.insert(all.end(), list.begin(), list.end());
   Json json = Json::array();
   for (const LibraryVersion& library : all) {
@@ -129,7 +116,7 @@ Json VersionRecord() {
           {"compiler", kBuildRecord.compiler},
           {"compiler-flags", kBuildRecord.flags},
           {"architecture", system.machine},
-          {"vector-instructions", VectorInstructions()},
+          {"vector-instructions", correlation::NameOf(correlation::ActiveVectorLevel())},
           {"library", LibrariesJson()},
           {"format", kFormats},
           {"licence", "Apache-2.0"}};

@@ -24,7 +24,7 @@ constexpr std::size_t kAnySize = std::numeric_limits<std::size_t>::max();
 std::string ToHex(const unsigned char* digest, unsigned size) {
   static constexpr char kDigits[] = "0123456789abcdef";
   std::string hex;
-  hex.reserve(2 * size);
+  hex.reserve(std::size_t{2} * size);
   for (unsigned i = 0; i < size; ++i) {
     hex.push_back(kDigits[digest[i] >> 4]);
     hex.push_back(kDigits[digest[i] & 15]);

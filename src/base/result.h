@@ -107,4 +107,4 @@ using Status = Result<void>;
 #define TELESTRAIN_ASSIGN_OR_RETURN(declaration, expression)                                      \
   auto TELESTRAIN_CONCAT(result_, __LINE__) = (expression);                                       \
   if (!TELESTRAIN_CONCAT(result_, __LINE__)) return TELESTRAIN_CONCAT(result_, __LINE__).error(); \
-  declaration = std::move(TELESTRAIN_CONCAT(result_, __LINE__)).value()
+  declaration = std::move(TELESTRAIN_CONCAT(result_, __LINE__)).value()  // NOLINT: a declaration

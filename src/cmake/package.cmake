@@ -8,8 +8,12 @@ execute_process(COMMAND date --utc "--date=${TELESTRAIN_DATE}" "+%s"
 execute_process(COMMAND date --utc --rfc-email "--date=${TELESTRAIN_DATE}"
   OUTPUT_VARIABLE package_day OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
 
+# Else cpack builds all tests first. Who packs has built.
+set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)
+
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME telestrain)
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")  # it would stand before the summary of each package
 set(CPACK_PACKAGE_CONTACT "${TELESTRAIN_MAINTAINER}")
 set(CPACK_PACKAGE_DIRECTORY "${PROJECT_BINARY_DIR}/packages")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
@@ -36,8 +40,12 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 # Files that the program opens: fonts of report and pictures, colour profile of the report.
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS
   "fonts-liberation2 | fonts-liberation, fonts-dejavu-core, icc-profiles-free")
-# Chinese reports; OpenGL by EGL (`render --backend egl`).
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "fonts-wqy-zenhei, libegl1, libgl1-mesa-dri")
+# What it loads when it is asked for: OpenCV's codecs (images that are neither PNG nor JPEG), its videos,
+# OpenGL by EGL (`render --backend egl`), the font of Chinese reports. Debian calls OpenCV 4.6 "406".
+string(REGEX REPLACE "^([0-9]+)\\.([0-9])\\..*" "\\1.0\\2." opencv_abi "${OpenCV_VERSION}")
+string(REGEX REPLACE "^([0-9]+)\\.([0-9]+)\\..*" "\\1\\2" opencv_abi "${opencv_abi}")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "libopencv-imgcodecs${opencv_abi}, \
+libopencv-videoio${opencv_abi}, libegl1, libgl1-mesa-dri, fonts-wqy-zenhei")
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION
 "strain of pipes by a telecentric four-view camera
 From images of a camera that sees a pipe in four telecentric views, telestrain

@@ -27,7 +27,7 @@ function(telestrain_module name)
 endfunction()
 
 # telestrain_alone(a.cpp …)
-# Sources that a unity build (CMAKE_UNITY_BUILD: eight are compiled at a time) takes
+# Sources that a unity build (CMAKE_UNITY_BUILD in the presets: eight are compiled at a time) takes
 # one by one: a name in their unnamed namespace stands in a neighbour as well.
 function(telestrain_alone)
   set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)

@@ -88,6 +88,6 @@ Result<GrayImage> DecodeGrayImage(const std::string& name, const std::string& by
   return ToGray(pixels);
 }
 
-void SetImageThreads(int threads) { cv::setNumThreads(threads); }
+void KeepImagesOnOneThread() { cv::setNumThreads(1); }
 
 }  // namespace telestrain

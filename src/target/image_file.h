@@ -27,7 +27,8 @@ Result<GrayImage> ReadGrayImage(const std::filesystem::path& path, int width_px 
 Result<GrayImage> DecodeGrayImage(const std::string& name, const std::string& bytes,
                                   int width_px = 0, int height_px = 0);
 
-// How many threads OpenCV's functions may work on, in the whole process. Changes no pixel.
-void SetImageThreads(int threads);
+// Keeps OpenCV's functions on the caller's thread, in the whole process: images, not the parts of
+// one, are shared among threads. Changes no pixel.
+void KeepImagesOnOneThread();
 
 }  // namespace telestrain

@@ -12,6 +12,7 @@
 
 #include "integration/small_run.h"
 #include "report/edited_pdf.h"
+#include "unit/base/scratch_folder.h"
 
 namespace telestrain::testing_support {
 namespace {

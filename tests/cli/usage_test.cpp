@@ -48,6 +48,16 @@ TEST(Usage, AnOptionOutsideItsRangeIsAnErrorWithTheRange) {
   EXPECT_FALSE(std::filesystem::exists("session"));
 }
 
+TEST(Usage, ThreadsAndVectorsOfTheProgramAreChecked) {
+  ExpectUsageError({"--threads", "0", "simulate", "--out", "session"}, "--threads");
+  ExpectUsageError({"--threads", "257", "simulate", "--out", "session"}, "--threads");
+  ExpectUsageError({"--vector", "sse", "simulate", "--out", "session"}, "--vector");
+  const ProgramRun run = RunTelestrain({"simulate", "--out", "session"},
+                                       {.environment = {{"TELESTRAIN_THREADS", "many"}}});
+  EXPECT_EQ(run.exit_code, 2) << run.err;
+  EXPECT_FALSE(std::filesystem::exists("session"));
+}
+
 TEST(Usage, TheHelpNamesEveryVerbAndExitCode) {
   const ProgramRun run = RunTelestrain({"--help"});
   EXPECT_EQ(run.exit_code, 0);

@@ -66,6 +66,7 @@ OptionFacts FactsOf(const CLI::Option& option) {
   facts.needs = NamesOf(option.get_needs());
   facts.excludes = NamesOf(option.get_excludes());
   facts.help = option.get_description();
+  if (facts.help.find(facts.range) != std::string::npos) facts.range.clear();  // said already
   return facts;
 }
 

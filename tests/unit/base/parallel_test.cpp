@@ -63,6 +63,21 @@ TEST(ParallelForTest, WorksOnAsManyThreadsAsAsked) {
   for (const int threads : {2, 5, 2, 7}) ExpectThreads(threads);
 }
 
+TEST(ParallelForTest, NoWishIsTheDefault) {
+  const int before = DefaultThreads();
+  EXPECT_GE(before, 1);
+  SetDefaultThreads(1);
+  EXPECT_EQ(BesideOwnWork(), std::launch::deferred);
+  ParallelFor(9, 0, [caller = std::this_thread::get_id()](int) {
+    EXPECT_EQ(std::this_thread::get_id(), caller);
+  });
+  SetDefaultThreads(5);
+  EXPECT_EQ(BesideOwnWork(), std::launch::async);
+  std::latch all_there(5);
+  ParallelFor(5, 0, [&](int) { all_there.arrive_and_wait(); });
+  SetDefaultThreads(before);
+}
+
 TEST(ParallelForTest, AnOuterCallOfOneIndexLeavesTheThreadsToTheInnerOne) {
   ParallelFor(1, 4, [](int) { ExpectThreads(3); });
   ParallelFor(5, 1, [](int) { ExpectThreads(3); });
