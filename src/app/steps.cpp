@@ -28,7 +28,9 @@ Status WritePlace(const fs::path& folder, const fs::path& results) {
   std::error_code code;
   const std::string place = fs::absolute(folder, code).lexically_normal().string() + "\n";
   if (fs::exists(results / "session.path", code))
-    if (const auto known = ReadFile(results / "session.path"); known && *known == place) return {};
+    if (const auto known = ReadFile(results / "session.path", kMostTextBytes);
+        known && *known == place)
+      return {};
   return WriteFileAtomically(results / "session.path", place);
 }
 
@@ -46,7 +48,7 @@ Status RecordOpening(const fs::path& folder, const fs::path& results, const fs::
 Result<bool> IsOpen(const fs::path& results, const std::string& inputs, const fs::path& corners) {
   std::error_code code;
   if (!fs::exists(results / "inputs.json", code)) return false;
-  const auto known = ReadFile(results / "inputs.json");
+  const auto known = ReadFile(results / "inputs.json", kMostJsonBytes);
   if (!known || *known != inputs) return false;
   TELESTRAIN_ASSIGN_OR_RETURN(const StepRecord record, OpenRecord(results, corners));
   return IsDone(results, record);
