@@ -32,11 +32,13 @@ int FilterRow(int filter, const PaddedRow& row, const PaddedRow& above, Predicto
   out.resize(row.size() - kBytesPerPixel + 1);
   out[0] = static_cast<char>(filter);
   const unsigned char* here = row.data() + kBytesPerPixel;
+  const unsigned char* left = row.data();
   const unsigned char* up = above.data() + kBytesPerPixel;
+  const unsigned char* up_left = above.data();
   char* differences = out.data() + 1;
   int sum = 0;
   for (std::size_t i = 0; i < row.size() - kBytesPerPixel; ++i) {
-    const int predicted = predict(here[i - kBytesPerPixel], up[i], up[i - kBytesPerPixel]);
+    const int predicted = predict(left[i], up[i], up_left[i]);
     const auto difference = static_cast<signed char>(here[i] - predicted);
     differences[i] = static_cast<char>(difference);
     sum += difference < 0 ? -difference : difference;

@@ -89,7 +89,7 @@ Result<std::string> Signatures(const std::string& name, const std::string& bytes
   if (folder)
     for (const auto& [index, role] : RecordedRoles(folder->entries))
       if (std::none_of(check.signatures.begin(), check.signatures.end(),
-                       [&](const PdfSignature& signature) { return signature.role == role; }))
+                       [&role = role](const auto& signature) { return signature.role == role; }))
         return BadInput("the signature of the " + role + " is missing in " + name + ", which " +
                         LineName(folder->entries, index) + " of the audit trail tells of");
   if (check.signatures.empty() && !trust.certificates.empty())

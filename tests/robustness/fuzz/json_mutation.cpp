@@ -1,5 +1,6 @@
 #include "robustness/fuzz/json_mutation.h"
 
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <random>
 #include <vector>
@@ -80,7 +81,9 @@ Json Unlikely(Random& random) {
 
 void ChangeMember(Json& json, Random& random) {
   const std::size_t size = json.size();
-  const auto at = [&] { return json.begin() + static_cast<std::ptrdiff_t>(random() % size); };
+  const auto at = [&] {
+    return std::next(json.begin(), static_cast<std::ptrdiff_t>(random() % size));
+  };
   switch (random() % 5) {
     case 0:
       json.erase(at());
