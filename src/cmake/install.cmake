@@ -21,8 +21,14 @@ foreach(completions bash:bash-completion/completions zsh:zsh/vendor-completions
   install(DIRECTORY "${TELESTRAIN_PAGES}/completions/${shell}/"
     DESTINATION "${CMAKE_INSTALL_DATADIR}/${folder}" COMPONENT program)
 endforeach()
-install(DIRECTORY src/app/pages/ DESTINATION "${CMAKE_INSTALL_DOCDIR}/verbs" COMPONENT program
-  FILES_MATCHING PATTERN "*.md")
+# The documents keep their places below each other, as they link to each other.
+file(GLOB documents CONFIGURE_DEPENDS RELATIVE "${PROJECT_SOURCE_DIR}"
+  README.md "src/*/*.md" src/app/pages/*.md "report/*.md")
+foreach(document IN LISTS documents)
+  cmake_path(GET document PARENT_PATH folder)
+  install(FILES "${document}" DESTINATION "${CMAKE_INSTALL_DOCDIR}/${folder}" COMPONENT program)
+endforeach()
+install(DIRECTORY data/readme DESTINATION "${CMAKE_INSTALL_DOCDIR}/data" COMPONENT program)
 install(FILES CHANGELOG.md src/cmake/debian/copyright DESTINATION "${CMAKE_INSTALL_DOCDIR}"
   COMPONENT program)
 install(FILES src/cmake/debian/telestrain-view.desktop
