@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,9 @@ struct ReportScope {
 // comparison.json, ruler.json and strain.json; writes results.json and dcc.xml. Fails with
 // kBadInput (a file is malformed; `earlier` cannot be read) or kOutputFailed.
 Result<Outcome> MakeResults(const std::filesystem::path& results, const ReportScope& scope = {});
+
+// The outcome that a results.json tells of.
+Outcome OutcomeIn(const nlohmann::ordered_json& results);
 
 struct ReportOptions {
   // Folder of the user's own layouts and texts; what it lacks is taken from those that were built

@@ -204,6 +204,17 @@ Status AddEarlier(const Parts& parts, const ReportScope& scope, const Json& evid
 
 }  // namespace
 
+Outcome OutcomeIn(const Json& results) {
+  const Json measured = EntryAt(results, "/measured");
+  const bool any = std::any_of(measured.begin(), measured.end(),
+                               [](const Json& section) { return section == true; });
+  Outcome outcome{TextAt(results, "/verdict"), false};
+  const bool nothing_to_decide =
+      outcome.verdict == "undecided" && EntryAt(results, "/decision/printed_undecided") == "";
+  outcome.accepted = any && (outcome.verdict == "pass" || nothing_to_decide);
+  return outcome;
+}
+
 Result<Outcome> MakeResults(const std::filesystem::path& results, const ReportScope& scope) {
   TELESTRAIN_RETURN_IF_ERROR(CheckScope(scope));
   TELESTRAIN_ASSIGN_OR_RETURN(const Parts parts, ReadParts(results));

@@ -2,6 +2,7 @@
 
 #include <cerrno>
 #include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <opencv2/core.hpp>
@@ -11,6 +12,7 @@
 #include "base/check.h"
 #include "base/files.h"
 #include "base/late_library.h"
+#include "base/signals.h"
 #include "viz/video_file.h"
 
 namespace telestrain::viz {
@@ -62,6 +64,28 @@ class LateWriter {
   bool is_there_ = false;
 };
 
+// The encoder tells nothing of a write that failed; then the boxes of the file do not fill it, or
+// the index is not among them. ISO/IEC 14496-12, 4.2: a box is its size in 32 bits, big-endian, or
+// 1 and the size in 64 bits after the type, and its type.
+bool IsWholeFilm(const std::string& bytes) {
+  const auto number = [&](std::size_t at, std::size_t count) {
+    std::uint64_t value = 0;
+    for (std::size_t i = 0; i < count; ++i)
+      value = value << 8 | static_cast<unsigned char>(bytes[at + i]);
+    return value;
+  };
+  bool has_index = false;
+  std::size_t at = 0;
+  while (bytes.size() - at >= 8) {
+    const bool is_long = number(at, 4) == 1 && bytes.size() - at >= 16;
+    const std::uint64_t size = is_long ? number(at + 8, 8) : number(at, 4);
+    has_index = has_index || bytes.compare(at + 4, 4, "moov") == 0;
+    if (size < 8 || size > bytes.size() - at) return false;
+    at += size;
+  }
+  return has_index && at == bytes.size();
+}
+
 class Mp4File : public VideoFile {
  public:
   explicit Mp4File(fs::path path) : path_(std::move(path)) {}
@@ -101,7 +125,10 @@ class Mp4File : public VideoFile {
   Status Close() override {
     writer_.Release();
     TELESTRAIN_ASSIGN_OR_RETURN(const std::string bytes, ReadFile(part_, kMostResultBytes));
-    if (bytes.empty()) return OutputFailed(path_.string() + ": the encoder wrote nothing");
+    if (!IsWholeFilm(bytes))
+      return OutputFailed(path_.string() +
+                          ": the film could not be written whole; free some space or choose a "
+                          "folder on another disk");
     return WriteFileAtomically(path_, bytes);
   }
 
@@ -125,6 +152,10 @@ class Mp4File : public VideoFile {
   fs::path path_, part_;
   cv::Size size_;
   LateWriter writer_;
+  const AtSignal remove_part_{[this](int) {
+    if (!part_.empty()) ::unlink(part_.c_str());
+    return AfterSignal::kEnd;
+  }};
 };
 
 }  // namespace

@@ -90,8 +90,7 @@ Status RemoveOthers(const fs::path& folder, const std::vector<viz::PlannedPictur
     if (!stays) outdated.push_back(entry->path());
   }
   for (const fs::path& path : outdated)
-    if (!fs::remove(path, code) && code)
-      return OutputFailed(path.string() + ": an old picture cannot be removed: " + code.message());
+    if (!fs::remove(path, code) && code) return CannotRemove(path, "an old picture", code.value());
   return {};
 }
 

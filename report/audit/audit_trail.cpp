@@ -120,10 +120,24 @@ Status AuditTrail::Sync() {
   if (whole_bytes_) {
     std::error_code code;
     fs::resize_file(file_, *whole_bytes_, code);
-    if (code) return OutputFailed(file_.string() + ": cannot be written: " + code.message());
+    if (code) return CannotWrite(file_, code.value());
     whole_bytes_.reset();
   }
   TELESTRAIN_RETURN_IF_ERROR(AppendToFile(file_, unsynced_));
+  unsynced_.clear();
+  return {};
+}
+
+Status AuditTrail::Replace() {
+  if (unsynced_.empty()) return {};
+  std::string text;
+  std::error_code code;
+  if (fs::exists(file_, code)) {
+    TELESTRAIN_ASSIGN_OR_RETURN(text, ReadFile(file_, kMostLogBytes));
+    if (whole_bytes_) text.resize(*whole_bytes_);
+  }
+  TELESTRAIN_RETURN_IF_ERROR(WriteFileAtomically(file_, text + unsynced_));
+  whole_bytes_.reset();
   unsynced_.clear();
   return {};
 }

@@ -42,6 +42,10 @@ class AuditTrail {
   // could not be read again (nested deeper than 64).
   Status Append(const std::string& type, const Json& body, const std::string& time);
   Status Sync();
+  // As Sync, but writes the whole file anew, so that it is the old one or the new one at any
+  // moment. For a trail that is held by its folder; what holds the file itself would hold the old
+  // one.
+  Status Replace();
 
   const std::vector<AuditEntry>& entries() const { return entries_; }
   // The hash of the last entry, 64 zeros without one.

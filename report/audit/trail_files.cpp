@@ -118,6 +118,10 @@ Status CheckStory(const std::vector<AuditEntry>& entries) {
   return {};
 }
 
+bool IsAsMade(const fs::path& file, const std::string& path, const TrailFile& made) {
+  return CheckFile(file, path, "", made).ok();
+}
+
 Result<std::size_t> CheckOutputs(const std::vector<AuditEntry>& entries, const fs::path& results) {
   std::size_t count = 0;
   for (const auto& [path, file] : LatestOutputs(entries)) {

@@ -24,6 +24,10 @@ std::map<std::string, TrailFile> LatestOutputs(const std::vector<AuditEntry>& en
 // "line 5 (verify)".
 std::string LineName(const std::vector<AuditEntry>& entries, std::size_t index);
 
+// Whether the file that the trail calls `path` is as it was made; a report.pdf may have been signed
+// since, as for CheckOutputs.
+bool IsAsMade(const std::filesystem::path& file, const std::string& path, const TrailFile& made);
+
 // Every path of an entry's inputs and outputs lies inside the folder it is of: relative, without
 // "..". A trail is a file that anybody may have written; ask this before any of its paths is
 // opened.

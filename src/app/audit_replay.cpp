@@ -12,6 +12,7 @@
 #include "app/step_options.h"
 #include "base/files.h"
 #include "base/numbers.h"
+#include "base/signals.h"
 #include "base/utf8.h"
 #include "report/audit/file_difference.h"
 #include "report/audit/repeatable.h"
@@ -67,6 +68,11 @@ class WorkFolder {
   WorkFolder() = default;
   fs::path path_;
   bool stays_ = false;
+  const AtSignal remove_{[this](int) {
+    std::error_code ignored;
+    if (!stays_ && !path_.empty()) fs::remove_all(path_, ignored);
+    return AfterSignal::kEnd;
+  }};
 };
 
 // The declared time of an entry that comes from no document: SOURCE_DATE_EPOCH was set then.

@@ -146,8 +146,13 @@ Result<CalibrateChoices> ReadChoices(const CalibrateArguments& arguments) {
 }
 
 Status CalibrateStep(const Session& session, const fs::path& results,
-                     const CalibrateChoices& choices, Console& console) {
+                     const CalibrateChoices& choices, Console& console, Earlier earlier) {
   TELESTRAIN_RETURN_IF_ERROR(RequireConsistent(results, Step::kCalibrate));
+  if (earlier == Earlier::kKept) {
+    TELESTRAIN_ASSIGN_OR_RETURN(const bool kept,
+                                IsKept(results, CalibrateRecord(choices), console));
+    if (kept) return {};
+  }
   if (choices.earlier) TELESTRAIN_RETURN_IF_ERROR(RequireSameViews(*choices.earlier, session));
   TELESTRAIN_ASSIGN_OR_RETURN(const std::vector<BoardObservation> boards,
                               ReadDetectedBoards(session, results));

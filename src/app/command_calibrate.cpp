@@ -23,10 +23,11 @@ class CalibrateCommand : public Command {
   }
   Result<int> Run(Console& console) override {
     TELESTRAIN_ASSIGN_OR_RETURN(const CalibrateChoices choices, ReadChoices(choices_));
-    TELESTRAIN_ASSIGN_OR_RETURN(const Session session,
-                                corners_.empty()
-                                    ? ReopenSession(arguments_.session, arguments_.out)
-                                    : OpenSession(arguments_.session, arguments_.out, corners_));
+    TELESTRAIN_ASSIGN_OR_RETURN(ResultsLock lock, ResultsLock::Take(arguments_.out));
+    TELESTRAIN_ASSIGN_OR_RETURN(
+        const Session session,
+        corners_.empty() ? ReopenSession(arguments_.session, arguments_.out)
+                         : OpenSession(arguments_.session, arguments_.out, corners_, lock));
     if (!corners_.empty())
       TELESTRAIN_RETURN_IF_ERROR(DetectStep(session, arguments_.out, corners_, console));
     TELESTRAIN_RETURN_IF_ERROR(CalibrateStep(session, arguments_.out, choices, console));

@@ -21,8 +21,9 @@ class DetectCommand : public Command {
     AddCornersOption(app, corners_);
   }
   Result<int> Run(Console& console) override {
+    TELESTRAIN_ASSIGN_OR_RETURN(ResultsLock lock, ResultsLock::Take(arguments_.out));
     TELESTRAIN_ASSIGN_OR_RETURN(const Session session,
-                                OpenSession(arguments_.session, arguments_.out, corners_));
+                                OpenSession(arguments_.session, arguments_.out, corners_, lock));
     TELESTRAIN_RETURN_IF_ERROR(DetectStep(session, arguments_.out, corners_, console));
     return 0;
   }

@@ -25,7 +25,10 @@ class DiagnoseCommand : public Command {
         ->type_name(kFolder)
         ->required();
   }
-  Result<int> Run(Console& console) override { return DiagnoseStep(results_, true, console); }
+  Result<int> Run(Console& console) override {
+    TELESTRAIN_ASSIGN_OR_RETURN(const ResultsLock lock, ResultsLock::Take(results_));
+    return DiagnoseStep(results_, true, console);
+  }
 
  private:
   std::string results_;

@@ -6,6 +6,7 @@
 #include "app/export_certificate.h"
 #include "app/export_files.h"
 #include "app/results_folder.h"
+#include "app/results_lock.h"
 #include "app/step_record.h"
 #include "base/value_names.h"
 #include "diagnostics/interchange.h"
@@ -74,6 +75,7 @@ class ExportCommand : public Command {
   }
   Result<int> Run(Console& console) override {
     TELESTRAIN_RETURN_IF_ERROR(CheckOptions());
+    TELESTRAIN_ASSIGN_OR_RETURN(const ResultsLock lock, ResultsLock::Take(results_));
     if (!certificate_.empty()) TELESTRAIN_RETURN_IF_ERROR(WriteCertificate(console));
     if (out_.empty()) return 0;
     NamedFiles files;

@@ -21,6 +21,7 @@ class MeasureCommand : public Command {
   }
   Result<int> Run(Console& console) override {
     TELESTRAIN_ASSIGN_OR_RETURN(const MeasureChoices choices, ReadChoices(choices_));
+    TELESTRAIN_ASSIGN_OR_RETURN(const ResultsLock lock, ResultsLock::Take(arguments_.out));
     TELESTRAIN_ASSIGN_OR_RETURN(const Session session,
                                 ReopenSession(arguments_.session, arguments_.out));
     TELESTRAIN_RETURN_IF_ERROR(MeasureStep(session, arguments_.out, choices, console));

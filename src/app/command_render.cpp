@@ -33,6 +33,7 @@ class RenderCommand : public Command {
   }
   Result<int> Run(Console& console) override {
     TELESTRAIN_ASSIGN_OR_RETURN(const RenderOptions options, ReadOptions(arguments_));
+    TELESTRAIN_ASSIGN_OR_RETURN(const ResultsLock lock, ResultsLock::Take(results_));
     TELESTRAIN_RETURN_IF_ERROR(arguments_.Film().empty()
                                    ? RenderStep(results_, options, arguments_.out, console)
                                    : Film(options, console));

@@ -59,6 +59,7 @@ class ReportCommand : public Command {
     if (results_.empty())
       return Error{ErrorKind::kUsage,
                    "report: RESULTS is missing; name the results folder, or ask with --list"};
+    TELESTRAIN_ASSIGN_OR_RETURN(const ResultsLock lock, ResultsLock::Take(results_));
     choices_.templates = templates_;
     choices_.against = against_;
     choices_.level = level_ == "1b" ? ArchiveLevel::k1b : ArchiveLevel::k3a;

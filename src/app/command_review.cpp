@@ -103,6 +103,7 @@ class ReviewCommand : public Command {
         ->type_name(kFile);
   }
   Result<int> Run(Console& console) override {
+    TELESTRAIN_ASSIGN_OR_RETURN(const ResultsLock lock, ResultsLock::Take(results_));
     const fs::path path = out_.empty() ? fs::path(results_) / "review.html" : fs::path(out_);
     TELESTRAIN_ASSIGN_OR_RETURN(const viz::ReviewContent content, ReadContent(results_, console));
     TELESTRAIN_ASSIGN_OR_RETURN(const std::string page, viz::ReviewPage(content));

@@ -11,6 +11,8 @@
 //   render     pictures in results/pictures
 //   report     /data/results/report.pdf
 //   verdict    pass
+// A run that was ended goes on where it was; what is finished already says so:
+//   detect     kept: made from the same inputs, options and program
 // clang-format on
 
 namespace telestrain {
@@ -33,17 +35,17 @@ class RunCommand : public Command {
     const std::string& out = arguments_.out;
     TELESTRAIN_ASSIGN_OR_RETURN(const CalibrateChoices choices, ReadChoices(choices_));
     TELESTRAIN_ASSIGN_OR_RETURN(const MeasureChoices measure, ReadChoices(measure_));
+    TELESTRAIN_ASSIGN_OR_RETURN(ResultsLock lock, ResultsLock::Take(out));
+    constexpr Earlier kEarlier = Earlier::kKept;
     TELESTRAIN_ASSIGN_OR_RETURN(const Session session,
-                                OpenSession(arguments_.session, out, corners_));
-    TELESTRAIN_RETURN_IF_ERROR(DetectStep(session, out, corners_, console));
-    TELESTRAIN_RETURN_IF_ERROR(CalibrateStep(session, out, choices, console));
-    // A disagreement is a failed check of the report, which decides the exit code.
-    TELESTRAIN_ASSIGN_OR_RETURN([[maybe_unused]] const int checked,
-                                DiagnoseStep(out, false, console));
-    TELESTRAIN_RETURN_IF_ERROR(VerifyStep(session, out, console));
-    TELESTRAIN_RETURN_IF_ERROR(MeasureStep(session, out, measure, console));
-    TELESTRAIN_RETURN_IF_ERROR(RenderStep(out, console));
-    return ReportStep(out, {}, console);
+                                OpenSession(arguments_.session, out, corners_, lock, kEarlier));
+    TELESTRAIN_RETURN_IF_ERROR(DetectStep(session, out, corners_, console, kEarlier));
+    TELESTRAIN_RETURN_IF_ERROR(CalibrateStep(session, out, choices, console, kEarlier));
+    TELESTRAIN_RETURN_IF_ERROR(DiagnoseStep(out, console, kEarlier));
+    TELESTRAIN_RETURN_IF_ERROR(VerifyStep(session, out, console, kEarlier));
+    TELESTRAIN_RETURN_IF_ERROR(MeasureStep(session, out, measure, console, kEarlier));
+    TELESTRAIN_RETURN_IF_ERROR(RenderStep(out, console, kEarlier));
+    return ReportStep(out, {}, console, kEarlier);
   }
 
  private:

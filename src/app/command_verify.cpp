@@ -18,6 +18,7 @@ class VerifyCommand : public Command {
   std::string Example() const override { return "telestrain verify session --out results"; }
   void AddOptions(CLI::App& app) override { arguments_.AddTo(app); }
   Result<int> Run(Console& console) override {
+    TELESTRAIN_ASSIGN_OR_RETURN(const ResultsLock lock, ResultsLock::Take(arguments_.out));
     TELESTRAIN_ASSIGN_OR_RETURN(const Session session,
                                 ReopenSession(arguments_.session, arguments_.out));
     TELESTRAIN_RETURN_IF_ERROR(VerifyStep(session, arguments_.out, console));

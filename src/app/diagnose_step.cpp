@@ -138,6 +138,16 @@ void SayDiagnosis(const Diagnosis& diagnosis, bool with_table, Console& console)
         "mrcal and this program disagree: do not use this calibration before the reason is known");
 }
 
+StepRecord DiagnoseRecord() {
+  return {"diagnose",
+          nlohmann::ordered_json::object(),
+          {},
+          {"inputs.json", "calibration.json", "residuals.csv", "detection.json", "corners.vnl",
+           "corner_covariances.csv"},
+          {},
+          {"mrcal.json"}};
+}
+
 }  // namespace
 
 Result<int> DiagnoseStep(const fs::path& results, bool with_table, Console& console) {
@@ -159,15 +169,18 @@ Result<int> DiagnoseStep(const fs::path& results, bool with_table, Console& cons
   TELESTRAIN_RETURN_IF_ERROR(
       WriteJson(results / "mrcal.json", DiagnosisJson(session, record, diagnosis, made_from)));
   SayDiagnosis(diagnosis, with_table, console);
-  TELESTRAIN_RETURN_IF_ERROR(
-      RecordStep(results, {"diagnose",
-                           nlohmann::ordered_json::object(),
-                           {},
-                           {"inputs.json", "calibration.json", "residuals.csv", "detection.json",
-                            "corners.vnl", "corner_covariances.csv"},
-                           {},
-                           {"mrcal.json"}}));
+  TELESTRAIN_RETURN_IF_ERROR(RecordStep(results, DiagnoseRecord()));
   return diagnosis.optimum && !diagnosis.optimum->agrees() ? 1 : 0;
+}
+
+Status DiagnoseStep(const fs::path& results, Console& console, Earlier earlier) {
+  TELESTRAIN_RETURN_IF_ERROR(RequireConsistent(results, Step::kDiagnose));
+  if (earlier == Earlier::kKept) {
+    TELESTRAIN_ASSIGN_OR_RETURN(const bool kept, IsKept(results, DiagnoseRecord(), console));
+    if (kept) return {};
+  }
+  const auto checked = DiagnoseStep(results, false, console);
+  return checked ? Status() : Status(checked.error());
 }
 
 }  // namespace telestrain

@@ -17,6 +17,6 @@ inline constexpr std::array kExitCodes = {ExitCode{0, "accepted"},
                                           ExitCode{4, "estimation failed"},
                                           ExitCode{5, "rendering or report failed"},
                                           ExitCode{70, "a defect of the program"}};
-inline constexpr int kUsageExit = 2, kDefectExit = 70;
+inline constexpr int kUsageExit = 2, kOutputExit = 5, kDefectExit = 70;
 
 }  // namespace telestrain

@@ -22,8 +22,7 @@ Status RemoveOldPieces(const fs::path& folder, const NamedFiles& files) {
   for (const auto& [name, bytes] : files) old.erase(name);
   for (const std::string& name : old)
     if (const fs::path path = folder / name; !fs::remove(path, code) && code)
-      return OutputFailed(path.string() + ": an old piece cannot be removed: " + code.message() +
-                          "; remove it by hand or choose another --out folder");
+      return CannotRemove(path, "an old piece", code.value());
   return {};
 }
 

@@ -2,13 +2,17 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cerrno>
 #include <exception>
 #include <iostream>
 
 #include "app/exit_codes.h"
+#include "app/guarded_run.h"
 #include "app/instrument_log.h"
 #include "app/program.h"
+#include "base/files.h"
 #include "base/numbers.h"
+#include "base/signals.h"
 
 namespace telestrain {
 namespace {
@@ -33,10 +37,14 @@ int RunCommand(Command& command, const CLI::App& verb, const InstrumentLog& log,
                Console& console) {
   if (const Status open = CheckLog(log); !open)
     return Report(command.Name(), open.error(), console);
-  const Result<int> result = command.Run(console);
   run.verb = command.Name();
   run.results = ResultsOf(verb);
+  const Result<int> result = RunGuarded(command, log, run, console);
   run.exit_code = result ? *result : Report(command.Name(), result.error(), console);
+  // A reader that has gone away wants no more; what was made is made.
+  if (const int failed = console.OutError(); failed != 0 && failed != EPIPE)
+    run.exit_code = Report(command.Name(), CannotWrite("standard output", failed), console);
+  const NoSignalNow until_logged;
   if (const Status logged = LogRun(log, run); !logged)
     return Report(command.Name(), logged.error(), console);
   return run.exit_code;
@@ -61,7 +69,11 @@ int Main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? 0 : kUsageExit;
+    errno = 0;
+    const int code = app.exit(e) == 0 ? 0 : kUsageExit;
+    if (std::cout.flush() || errno == EPIPE) return code;
+    std::cerr << "telestrain: " << CannotWrite("standard output", errno).message << '\n';
+    return kOutputExit;
   }
   Command* command = program.Chosen();
   if (!command) return kUsageExit;
@@ -76,6 +88,8 @@ int Main(int argc, char** argv) {
 }  // namespace telestrain
 
 int main(int argc, char** argv) {
+  telestrain::HandleSignals();
+  telestrain::HandleLackOfMemory();
   try {
     return telestrain::Main(argc, argv);
   } catch (const std::exception& e) {

@@ -1,6 +1,5 @@
-#include <atomic>
-#include <csignal>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "app/results_folder.h"
 #include "app/step_options.h"
@@ -11,6 +10,7 @@
 #include "base/files.h"
 #include "base/json_file.h"
 #include "base/numbers.h"
+#include "base/signals.h"
 #include "measurement/pipe_file.h"
 #include "session/pipe_table.h"
 #include "target/image_file.h"
@@ -62,33 +62,6 @@ class TabledImages : public PipeStream {
   int kept_ = 0;
 };
 
-std::atomic<WatchedFolder*> watched_folder = nullptr;
-
-// Lets the watch end when the person or the system says so, with everything written.
-class StopOnSignal {
- public:
-  explicit StopOnSignal(WatchedFolder& watched) {
-    watched_folder = &watched;
-    struct sigaction action {};
-    action.sa_flags = SA_RESTART;  // what is being written is written
-    action.sa_handler = [](int) {
-      if (WatchedFolder* folder = watched_folder) folder->Stop();
-    };
-    ::sigaction(SIGINT, &action, &before_[0]);
-    ::sigaction(SIGTERM, &action, &before_[1]);
-  }
-  ~StopOnSignal() {
-    ::sigaction(SIGINT, &before_[0], nullptr);
-    ::sigaction(SIGTERM, &before_[1], nullptr);
-    watched_folder = nullptr;
-  }
-  StopOnSignal(const StopOnSignal&) = delete;
-  StopOnSignal& operator=(const StopOnSignal&) = delete;
-
- private:
-  struct sigaction before_[2]{};
-};
-
 PipeOptions OptionsOf(const Session& session, const MeasureChoices& choices) {
   PipeOptions options = DefaultPipeOptions(session);
   if (choices.subset_px > 0) options.subset_px = choices.subset_px;
@@ -137,7 +110,12 @@ Result<PipeMeasurement> MeasureWatched(const Session& described, const fs::path&
   TELESTRAIN_ASSIGN_OR_RETURN(const auto made_from, MadeFrom(session, results, options));
   TELESTRAIN_ASSIGN_OR_RETURN(StrainJournal journal, StrainJournal::Open(results, made_from));
   WatchedFolder images(choices, session, journal, console);
-  const StopOnSignal stop(images);
+  // The first signal ends the watch, with everything written; another one the program.
+  bool stopped = false;
+  const AtSignal stop([&](int) {
+    images.Stop();
+    return std::exchange(stopped, true) ? AfterSignal::kEnd : AfterSignal::kGoOn;
+  });
   TELESTRAIN_ASSIGN_OR_RETURN(PipeMeasurement measurement,
                               MeasureStream(session, array, options, images));
   TELESTRAIN_RETURN_IF_ERROR(journal.Finish());
@@ -160,20 +138,32 @@ Status WriteMeasurement(const PipeMeasurement& measurement, const fs::path& resu
 }
 
 StepRecord MeasureRecord(const Session& session, const MeasureChoices& choices,
-                         const PipeMeasurement& measurement) {
+                         std::size_t states) {
   StepRecord record{"measure",
                     OptionsJson(choices.arguments),
                     choices.watch ? std::vector<std::string>{"session.toml"} : PipeFiles(session),
                     {"inputs.json", "calibration.json"},
                     {},
                     {"strain.csv", "strain_components.csv", "strain.json", "strain_states.jsonl"}};
-  for (std::size_t i = 0; i < measurement.states.size(); ++i) {
-    record.outputs.push_back(SurfaceFileName(i));
-    if (choices.watch)
-      record.inputs_elsewhere.push_back(choices.watch->folder /
-                                        fs::path(measurement.states[i].table.image).filename());
-  }
+  for (std::size_t i = 0; i < states; ++i) record.outputs.push_back(SurfaceFileName(i));
   return record;
+}
+
+StepRecord WatchRecord(const Session& session, const MeasureChoices& choices,
+                       const PipeMeasurement& measurement) {
+  StepRecord record = MeasureRecord(session, choices, measurement.states.size());
+  for (const MeasuredState& state : measurement.states)
+    record.inputs_elsewhere.push_back(choices.watch->folder /
+                                      fs::path(state.table.image).filename());
+  return record;
+}
+
+// With every surface that lies there as what it might have made.
+Result<bool> MeasureIsKept(const Session& session, const fs::path& results,
+                           const MeasureChoices& choices, Console& console) {
+  StepRecord record = MeasureRecord(session, choices, session.pipe_states.size());
+  for (const std::string& name : SurfacesIn(results)) record.outputs.push_back(name);
+  return IsKept(results, record, console);
 }
 
 Error OutOfRange(const std::string& what) { return {ErrorKind::kUsage, what}; }
@@ -203,19 +193,24 @@ Result<MeasureChoices> ReadChoices(const MeasureArguments& arguments) {
 }
 
 Status MeasureStep(const Session& session, const fs::path& results, const MeasureChoices& choices,
-                   Console& console) {
+                   Console& console, Earlier earlier) {
   const PipeOptions options = OptionsOf(session, choices);
   if (choices.watch) {
     TELESTRAIN_ASSIGN_OR_RETURN(const PipeMeasurement measurement,
                                 MeasureWatched(session, results, options, *choices.watch, console));
     TELESTRAIN_RETURN_IF_ERROR(WriteMeasurement(measurement, results, console));
-    return RecordStep(results, MeasureRecord(session, choices, measurement));
+    return RecordStep(results, WatchRecord(session, choices, measurement));
   }
+  if (earlier == Earlier::kKept) {
+    TELESTRAIN_ASSIGN_OR_RETURN(const bool kept, MeasureIsKept(session, results, choices, console));
+    if (kept) return {};
+  }
+  const StepRecord record = MeasureRecord(session, choices, session.pipe_states.size());
   if (session.pipe_states.empty()) {
     TELESTRAIN_RETURN_IF_ERROR(LoadCalibration(session, results));
     TELESTRAIN_RETURN_IF_ERROR(RemoveOutputsFrom(results, Step::kMeasure));
     console.Say("measure    the session has no pipe images");
-    return RecordStep(results, MeasureRecord(session, choices, {}));
+    return RecordStep(results, record);
   }
   TELESTRAIN_ASSIGN_OR_RETURN(const PipeMeasurement measurement,
                               MeasureTable(session, results, options, console));
@@ -224,7 +219,7 @@ Status MeasureStep(const Session& session, const fs::path& results, const Measur
     console.Note("  " + state.table.image + ": " + FormatFixed(1e6 * state.strain.axial_strain, 2) +
                  " +- " + FormatFixed(1e6 * state.strain.standard_uncertainty, 2) +
                  " microstrain (standard uncertainty)");
-  return RecordStep(results, MeasureRecord(session, choices, measurement));
+  return RecordStep(results, record);
 }
 
 }  // namespace telestrain

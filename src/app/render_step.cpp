@@ -24,11 +24,36 @@ std::map<std::string, std::string> ReportedPictures(const fs::path& results) {
   return bytes;
 }
 
+StepRecord RenderRecord(const fs::path& results, const RenderOptions& options,
+                        const fs::path& out) {
+  StepRecord record = SceneRecord("render", results);
+  record.options = OptionsJson(options);
+  record.options["out"] = RecordedPlace(results, out);
+  return record;
+}
+
+// Every picture of the standard set that lies there.
+std::vector<std::string> PicturesIn(const fs::path& results) {
+  std::vector<std::string> names;
+  std::error_code code;
+  for (fs::directory_iterator entry(results / "pictures", code), end; !code && entry != end;
+       entry.increment(code))
+    if (const std::string name = entry->path().filename().string(); viz::IsStandardPicture(name))
+      names.push_back("pictures/" + name);
+  return names;
+}
+
 }  // namespace
 
-Status RenderStep(const fs::path& results, Console& console) {
+Status RenderStep(const fs::path& results, Console& console, Earlier earlier) {
   RenderOptions options;
   options.only_reported = true;
+  if (earlier == Earlier::kKept) {
+    StepRecord record = RenderRecord(results, options, {});
+    record.outputs = PicturesIn(results);
+    TELESTRAIN_ASSIGN_OR_RETURN(const bool kept, IsKept(results, record, console));
+    if (kept) return {};
+  }
   return RenderStep(results, options, {}, console);
 }
 
@@ -47,9 +72,7 @@ Status RenderStep(const fs::path& results, const RenderOptions& options, const f
     TELESTRAIN_RETURN_IF_ERROR(RemoveOutputsFrom(results, Step::kReport));
   TELESTRAIN_RETURN_IF_ERROR(rendered);
   console.Say("render     pictures in " + (out.empty() ? results / "pictures" : out).string());
-  StepRecord record = SceneRecord("render", results);
-  record.options = OptionsJson(options);
-  record.options["out"] = RecordedPlace(results, out);
+  StepRecord record = RenderRecord(results, options, out);
   record.outputs = is_file ? std::vector{out.filename().string()} : written.Names();
   record.outputs_folder = folder.empty() ? "." : folder;
   return RecordStep(results, record);

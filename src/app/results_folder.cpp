@@ -1,5 +1,6 @@
 #include "app/results_folder.h"
 
+#include <algorithm>
 #include <charconv>
 #include <functional>
 #include <iostream>
@@ -47,14 +48,6 @@ std::optional<std::size_t> StateOfSurface(const std::string& name) {
   return state;
 }
 
-// What WriteFileAtomically leaves of a file of `measure` when it is killed.
-bool IsHalfWritten(const std::string& name) {
-  const std::size_t part = name.rfind(".part");
-  if (part == std::string::npos) return false;
-  const std::string whole = name.substr(0, part);
-  return whole.starts_with("strain") || StateOfSurface(whole).has_value();
-}
-
 // A signature dictionary says which bytes it covers, in clear.
 bool IsSignedPdf(const fs::path& path) {
   if (path.extension() != ".pdf") return false;
@@ -84,8 +77,7 @@ Status Remove(const fs::path& path) {
   std::error_code code;
   fs::remove(path, code);
   if (!code) return {};
-  return OutputFailed(path.string() + ": an old result cannot be removed: " + code.message() +
-                      "; remove it by hand or choose another --out folder");
+  return CannotRemove(path, "an old result", code.value());
 }
 
 Status RemoveNamed(const fs::path& folder, const std::function<bool(const std::string&)>& goes) {
@@ -94,6 +86,9 @@ Status RemoveNamed(const fs::path& folder, const std::function<bool(const std::s
   for (fs::directory_iterator entry(folder, code), end; !code && entry != end;
        entry.increment(code))
     if (goes(entry->path().filename().string())) names.push_back(entry->path());
+  if (code && code != std::errc::no_such_file_or_directory)
+    return OutputFailed(folder.string() + ": cannot be looked through for old results: " +
+                        code.message() + "; choose another --out folder");
   for (const fs::path& name : names) TELESTRAIN_RETURN_IF_ERROR(Remove(name));
   return {};
 }
@@ -171,8 +166,18 @@ Status RemoveSurfacesFrom(const fs::path& results, std::size_t first) {
 Status RemoveEndOfMeasure(const fs::path& results) {
   TELESTRAIN_RETURN_IF_ERROR(Remove(results / "strain.json"));
   TELESTRAIN_RETURN_IF_ERROR(Remove(results / "strain_components.csv"));
-  TELESTRAIN_RETURN_IF_ERROR(RemoveNamed(results, IsHalfWritten));
   return RemoveOutputsFrom(results, Step::kRender);
+}
+
+std::vector<std::string> SurfacesIn(const fs::path& results) {
+  std::vector<std::string> names;
+  std::error_code code;
+  for (fs::directory_iterator entry(results, code), end; !code && entry != end;
+       entry.increment(code))
+    if (const std::string name = entry->path().filename().string(); StateOfSurface(name))
+      names.push_back(name);
+  std::sort(names.begin(), names.end());
+  return names;
 }
 
 Result<std::string> InputsText(const Session& session, const fs::path& corners) {

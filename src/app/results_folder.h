@@ -4,6 +4,7 @@
 #include <initializer_list>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "base/result.h"
 #include "session/made_from.h"
@@ -16,10 +17,13 @@ namespace telestrain {
 Status RemoveOutputsFrom(const std::filesystem::path& results, Step step);
 
 // Removes what `measure` makes at its end and the steps after it make of that, but not the files of
-// the single states. What a killed run left half-written goes too.
+// the single states.
 Status RemoveEndOfMeasure(const std::filesystem::path& results);
 // Removes pipe_NNN.vtp of the states from `first` on.
 Status RemoveSurfacesFrom(const std::filesystem::path& results, std::size_t first);
+
+// The names of all pipe_NNN.vtp, sorted.
+std::vector<std::string> SurfacesIn(const std::filesystem::path& results);
 
 // The text of inputs.json: the session's facts, the program and the SHA-256 of every input file,
 // among them `corners` when the target's corners come from there. Fails (kBadInput) when an image

@@ -11,8 +11,9 @@
 #include <iostream>
 #include <optional>
 
+#include "app/results_lock.h"
 #include "base/files.h"
-#include "base/path_lock.h"
+#include "base/signals.h"
 #include "base/utf8.h"
 #include "report/audit/audit_trail.h"
 #include "report/signature/sign_report.h"
@@ -40,6 +41,11 @@ Result<std::string> AskTerminal(const std::string& source) {
                     "--password-file or TELESTRAIN_KEY_PASSWORD");
   termios hidden = shown;
   hidden.c_lflag &= ~static_cast<tcflag_t>(ECHO);
+  const AtSignal show([&](int) {
+    ::tcsetattr(STDIN_FILENO, TCSANOW, &shown);
+    std::cerr << '\n';
+    return AfterSignal::kEnd;
+  });
   std::cerr << "Password of " << source << ": " << std::flush;
   ::tcsetattr(STDIN_FILENO, TCSAFLUSH, &hidden);
   std::string password;
@@ -129,7 +135,7 @@ Json EntryOf(const SignArguments& arguments, const fs::path& target, const std::
 
 Status Record(AuditTrail& trail, const Json& body, const SignOptions& options) {
   TELESTRAIN_RETURN_IF_ERROR(trail.Append("sign", body, IsoTime(options.time_s)));
-  return trail.Sync();
+  return trail.Replace();
 }
 
 // The file itself when the name is a link to it; the link stays.
@@ -146,18 +152,18 @@ Result<int> SignStep(const SignArguments& arguments, Console& console) {
   TELESTRAIN_ASSIGN_OR_RETURN(const SignOptions options, OptionsOf(arguments));
   if (const auto readable = ReadFile(arguments.report, kMostReportBytes); !readable)
     return readable.error();
-  // A password may be asked for before others have to wait.
+  const fs::path folder = fs::absolute(target).parent_path();
+  // Known before a password is asked for, which may take its time and keeps nobody out.
+  if (const auto is_free = ResultsLock::Take(folder); !is_free) return is_free.error();
   TELESTRAIN_ASSIGN_OR_RETURN(const SigningKey key, KeyOf(arguments));
-  // Held until the trail tells of the signature: of two who sign at once the second signs what the
-  // first made.
-  TELESTRAIN_ASSIGN_OR_RETURN(
-      const PathLock lock,
-      PathLock::Take(fs::absolute(target).parent_path(), "sign in a folder of this machine"));
+  // Held until the trail tells of the signature: nobody signs what another is about to replace.
+  TELESTRAIN_ASSIGN_OR_RETURN(const ResultsLock lock, ResultsLock::Take(folder));
   TELESTRAIN_ASSIGN_OR_RETURN(auto trail, TrailBeside(fs::absolute(target)));
   TELESTRAIN_ASSIGN_OR_RETURN(const std::string before,
                               ReadFile(arguments.report, kMostReportBytes));
   TELESTRAIN_ASSIGN_OR_RETURN(const SignedReport signed_report,
                               SignReport(arguments.report, before, key, options));
+  const NoSignalNow file_and_trail;
   TELESTRAIN_RETURN_IF_ERROR(WriteFileAtomically(FileBehind(target), signed_report.bytes));
   if (trail) {
     const Json body = EntryOf(arguments, target, before, signed_report);

@@ -3,12 +3,15 @@
 #include <sys/stat.h>
 
 #include <algorithm>
+#include <set>
 
 #include "app/program_record.h"
+#include "app/results_lock.h"
 #include "base/files.h"
 #include "base/json_file.h"
-#include "base/path_lock.h"
+#include "report/audit/audit_line.h"
 #include "report/audit/step_order.h"
+#include "report/audit/trail_files.h"
 #include "report/declared_time.h"
 
 namespace telestrain {
@@ -75,6 +78,38 @@ Result<AuditTrail> OpenTrail(const fs::path& results) {
                   "--out folder");
 }
 
+Result<Json> ReadInputs(const fs::path& results) {
+  return ReadJson(results / "inputs.json", "telestrain.inputs/1", "telestrain detect");
+}
+
+// What decides about the outputs of a step.
+Result<Json> BodyOf(const StepRecord& step, const fs::path& results, const Json& inputs_json) {
+  Json inputs = Json::array();
+  TELESTRAIN_RETURN_IF_ERROR(AddFiles(step, results, inputs_json, inputs));
+  return Json{
+      {"program", ProgramRecord()}, {"options", step.options}, {"inputs", std::move(inputs)}};
+}
+
+// The files of the entry lie in the results folder as it made them, and none that it did not make.
+bool FilesAreAsMade(const std::vector<AuditEntry>& entries, std::size_t index,
+                    const StepRecord& step, const fs::path& results) {
+  std::set<std::string> made;
+  for (const Json& file : ListAt(entries[index].body, "/outputs")) {
+    if (TextAt(file, "/of") != "results") return false;
+    made.insert(TextAt(file, "/path"));
+  }
+  const std::vector<AuditEntry> alone(entries.begin() + static_cast<std::ptrdiff_t>(index),
+                                      entries.end());
+  const auto files = LatestOutputs(alone);
+  std::error_code code;
+  for (const std::string& path : made)
+    if (!fs::exists(results / path, code) || !IsAsMade(results / path, path, files.at(path)))
+      return false;
+  return std::none_of(step.outputs.begin(), step.outputs.end(), [&](const std::string& name) {
+    return !made.contains(name) && fs::exists(results / name, code);
+  });
+}
+
 }  // namespace
 
 Status CheckTrail(const fs::path& results) {
@@ -83,30 +118,51 @@ Status CheckTrail(const fs::path& results) {
 }
 
 Status RecordStep(const fs::path& results, const StepRecord& step) {
-  TELESTRAIN_ASSIGN_OR_RETURN(
-      const Json inputs_json,
-      ReadJson(results / "inputs.json", "telestrain.inputs/1", "telestrain detect"));
-  Json inputs = Json::array();
-  TELESTRAIN_RETURN_IF_ERROR(AddFiles(step, results, inputs_json, inputs));
-  TELESTRAIN_ASSIGN_OR_RETURN(Json outputs, OutputsOf(step, results));
-  Json body{{"program", ProgramRecord()},
-            {"options", step.options},
-            {"inputs", std::move(inputs)},
-            {"outputs", std::move(outputs)}};
+  TELESTRAIN_ASSIGN_OR_RETURN(const Json inputs_json, ReadInputs(results));
+  TELESTRAIN_ASSIGN_OR_RETURN(Json body, BodyOf(step, results, inputs_json));
+  TELESTRAIN_ASSIGN_OR_RETURN(body["outputs"], OutputsOf(step, results));
   if (step.type == "open") body["session"] = TextAt(inputs_json, "/title");
-  TELESTRAIN_ASSIGN_OR_RETURN(const PathLock lock,
-                              PathLock::Take(results, "use an --out folder of this machine"));
+  TELESTRAIN_ASSIGN_OR_RETURN(const ResultsLock lock, ResultsLock::Take(results));
   TELESTRAIN_ASSIGN_OR_RETURN(AuditTrail trail, OpenTrail(results));
   if (IsRecorded(trail, step.type, body)) return {};
   TELESTRAIN_RETURN_IF_ERROR(
       trail.Append(step.type, body, DeclaredTime(EntryAt(inputs_json, "/document"))));
-  return trail.Sync();
+  return trail.Replace();
+}
+
+Result<bool> IsDone(const fs::path& results, const StepRecord& step) {
+  std::error_code code;
+  if (!fs::exists(results / "inputs.json", code)) return false;
+  TELESTRAIN_ASSIGN_OR_RETURN(const AuditTrail trail, OpenTrail(results));
+  const auto& entries = trail.entries();
+  const auto latest = std::find_if(entries.rbegin(), entries.rend(), [&](const AuditEntry& entry) {
+    return entry.type == step.type;
+  });
+  if (latest == entries.rend()) return false;
+  const auto index = static_cast<std::size_t>(entries.rend() - latest) - 1;
+  if (IsSuperseded(entries, index) || !FilesAreAsMade(entries, index, step, results)) return false;
+  TELESTRAIN_ASSIGN_OR_RETURN(const Json inputs_json, ReadInputs(results));
+  // A report tells of the declared time.
+  if (step.type == "report" &&
+      entries[index].time != DeclaredTime(EntryAt(inputs_json, "/document")))
+    return false;
+  TELESTRAIN_ASSIGN_OR_RETURN(const Json body, BodyOf(step, results, inputs_json));
+  return std::all_of(body.items().begin(), body.items().end(), [&](const auto& item) {
+    return CanonicalJson(item.value()) ==
+           CanonicalJson(EntryAt(entries[index].body, "/" + item.key()));
+  });
+}
+
+Result<bool> IsKept(const fs::path& results, const StepRecord& step, Console& console) {
+  TELESTRAIN_ASSIGN_OR_RETURN(const bool done, IsDone(results, step));
+  if (done)
+    console.Say(step.type + std::string(11 - std::min<std::size_t>(step.type.size(), 10), ' ') +
+                "kept: made from the same inputs, options and program");
+  return done;
 }
 
 Result<std::vector<std::string>> SessionFiles(const fs::path& results) {
-  TELESTRAIN_ASSIGN_OR_RETURN(
-      const Json inputs_json,
-      ReadJson(results / "inputs.json", "telestrain.inputs/1", "telestrain detect"));
+  TELESTRAIN_ASSIGN_OR_RETURN(const Json inputs_json, ReadInputs(results));
   std::vector<std::string> names;
   for (const Json& file : ListAt(inputs_json, "/files")) names.push_back(TextAt(file, "/path"));
   return names;
@@ -138,6 +194,10 @@ StepRecord SceneRecord(const std::string& type, const fs::path& results) {
   std::sort(surfaces.begin(), surfaces.end());
   record.inputs.insert(record.inputs.end(), surfaces.begin(), surfaces.end());
   return record;
+}
+
+std::vector<fs::path> IfGiven(const fs::path& path) {
+  return path.empty() ? std::vector<fs::path>{} : std::vector{path};
 }
 
 std::string RecordedPlace(const fs::path& results, const fs::path& out) {

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/console.h"
 #include "base/result.h"
 #include "session/session.h"
 
@@ -30,6 +31,15 @@ struct StepRecord {
 // is damaged, an input elsewhere cannot be read) or kOutputFailed.
 Status RecordStep(const std::filesystem::path& results, const StepRecord& record);
 
+// Whether the trail says that the step was done, by this program with these options and inputs, its
+// files lie there as it made them, and no step before it in the chain was done since. A report may
+// have been signed since. Fails as RecordStep does.
+Result<bool> IsDone(const std::filesystem::path& results, const StepRecord& record);
+
+// Whether IsDone; then says so in the step's line.
+Result<bool> IsKept(const std::filesystem::path& results, const StepRecord& record,
+                    Console& console);
+
 // Fails (kBadInput) when the results folder has a damaged trail: known before a step begins.
 Status CheckTrail(const std::filesystem::path& results);
 
@@ -41,6 +51,9 @@ std::vector<std::string> PipeFiles(const Session& session);
 
 // A record with all files as inputs that a scene is made of.
 StepRecord SceneRecord(const std::string& type, const std::filesystem::path& results);
+
+// The path, or nothing when it is empty.
+std::vector<std::filesystem::path> IfGiven(const std::filesystem::path& path);
 
 // Where a verb writes, as an option is recorded: "RESULTS/…" inside the results folder, else the
 // last name only.

@@ -1,10 +1,7 @@
 #include "app/steps.h"
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
-#include <set>
 
-#include "app/changed_results.h"
 #include "app/results_folder.h"
 #include "app/step_record.h"
 #include "base/files.h"
@@ -12,9 +9,7 @@
 #include "base/numbers.h"
 #include "calibration/calibration_file.h"
 #include "measurement/ruler_acceptance.h"
-#include "report/template_list.h"
 #include "target/corner_import.h"
-#include "viz/picture_set.h"
 
 namespace telestrain {
 namespace {
@@ -22,47 +17,19 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-// One line for every limit that is not met or could not be decided.
-Status SayWhy(const fs::path& results, Console& console) {
-  TELESTRAIN_ASSIGN_OR_RETURN(
-      const auto json,
-      ReadJson(results / "results.json", "telestrain.results/1", "telestrain report"));
-  try {
-    for (const auto& quantity : json.at("quantities")) {
-      const auto text = [&](const char* key) {
-        const auto at = quantity.find(key);
-        if (at == quantity.end()) return std::string("-");
-        const auto& entry = at->is_object() ? at->at("printed") : *at;  // a Phrase
-        return entry.is_string() ? entry.template get<std::string>() : std::string("-");
-      };
-      if (quantity.at("limit").is_null() || text("verdict") == "pass") continue;
-      console.Say("  " + text("label") + ": " + text("printed") + " " + text("unit") + " (U " +
-                  text("printed_uncertainty") + "), limit " + text("printed_limit") + ": " +
-                  (text("verdict") == "-" ? "not decided" : text("verdict")));
-    }
-  } catch (const nlohmann::json::exception& e) {
-    return BadInput((results / "results.json").string() + ": " + e.what());
-  }
-  return {};
+Result<StepRecord> OpenRecord(const fs::path& results, const fs::path& corners) {
+  TELESTRAIN_ASSIGN_OR_RETURN(std::vector<std::string> files, SessionFiles(results));
+  return StepRecord{"open",           {{"corners", corners.string()}}, std::move(files), {},
+                    IfGiven(corners), {"inputs.json", "session.toml"}};
 }
 
-// What the layout says of the report's content, with the earlier results that it needs.
-Result<ReportScope> ScopeOf(const ReportOptions& options, const fs::path& against) {
-  TELESTRAIN_ASSIGN_OR_RETURN(LayoutScope layout, ScopeOfLayout(options));
-  if (layout.against_earlier && against.empty())
-    return Error{ErrorKind::kUsage,
-                 "the report '" + options.name +
-                     "' compares with an earlier one; name its results folder or its report.pdf "
-                     "with --against EARLIER"};
-  if (!layout.against_earlier && !against.empty())
-    return Error{ErrorKind::kUsage, "--against: the report '" + options.name +
-                                        "' shows no comparison; use --template reverification"};
-  layout.scope.earlier = against;
-  return layout.scope;
-}
-
-std::vector<fs::path> IfGiven(const fs::path& path) {
-  return path.empty() ? std::vector<fs::path>{} : std::vector{path};
+// Says where the session lies.
+Status WritePlace(const fs::path& folder, const fs::path& results) {
+  std::error_code code;
+  const std::string place = fs::absolute(folder, code).lexically_normal().string() + "\n";
+  if (fs::exists(results / "session.path", code))
+    if (const auto known = ReadFile(results / "session.path"); known && *known == place) return {};
+  return WriteFileAtomically(results / "session.path", place);
 }
 
 // Leaves the session's description and its place in the results folder, and records what was read.
@@ -70,16 +37,28 @@ Status RecordOpening(const fs::path& folder, const fs::path& results, const fs::
   TELESTRAIN_ASSIGN_OR_RETURN(const std::string description,
                               ReadFile(folder / "session.toml", kMostTextBytes));
   TELESTRAIN_RETURN_IF_ERROR(WriteFileAtomically(results / "session.toml", description));
+  TELESTRAIN_RETURN_IF_ERROR(WritePlace(folder, results));
+  TELESTRAIN_ASSIGN_OR_RETURN(const StepRecord record, OpenRecord(results, corners));
+  return RecordStep(results, record);
+}
+
+// Whether the results were made from these inputs, as inputs.json tells of them.
+Result<bool> IsOpen(const fs::path& results, const std::string& inputs, const fs::path& corners) {
   std::error_code code;
-  const std::string place = fs::absolute(folder, code).lexically_normal().string();
-  TELESTRAIN_RETURN_IF_ERROR(WriteFileAtomically(results / "session.path", place + "\n"));
-  TELESTRAIN_ASSIGN_OR_RETURN(std::vector<std::string> files, SessionFiles(results));
-  return RecordStep(results, {"open",
-                              {{"corners", corners.string()}},
-                              std::move(files),
-                              {},
-                              IfGiven(corners),
-                              {"inputs.json", "session.toml"}});
+  if (!fs::exists(results / "inputs.json", code)) return false;
+  const auto known = ReadFile(results / "inputs.json");
+  if (!known || *known != inputs) return false;
+  TELESTRAIN_ASSIGN_OR_RETURN(const StepRecord record, OpenRecord(results, corners));
+  return IsDone(results, record);
+}
+
+StepRecord DetectRecord(const Session& session, const fs::path& corners) {
+  return {"detect",
+          {{"corners", corners.string()}},
+          TargetFiles(session),
+          {"inputs.json"},
+          IfGiven(corners),
+          {"corners.vnl", "corner_covariances.csv", "detection.json"}};
 }
 
 StepRecord VerifyRecord() {
@@ -89,38 +68,6 @@ StepRecord VerifyRecord() {
           {"detection.json", "calibration.json"},
           {},
           {"ruler.csv", "ruler.json"}};
-}
-
-// Recorded before the report is written, which carries the trail up to here.
-StepRecord ResultsRecord(const Json& options, const fs::path& against) {
-  std::error_code code;
-  const fs::path earlier = fs::is_directory(against, code) ? against / "results.json" : against;
-  return {"results",
-          options,
-          {},
-          {"inputs.json", "detection.json", "calibration.json", "residuals.csv", "mrcal.json",
-           "comparison.json", "ruler.json", "strain.json"},
-          IfGiven(earlier),
-          {"results.json", "dcc.xml"}};
-}
-
-// Every picture beside the report may stand in it, every file of the user's templates shape it.
-StepRecord ReportRecord(const fs::path& results, const fs::path& templates, const Json& options) {
-  StepRecord record{"report", options,
-                    {},       {"results.json", "calibration.json", "residuals.csv", "dcc.xml"},
-                    {},       {"report.pdf"}};
-  std::error_code code;
-  for (fs::recursive_directory_iterator entry(templates, code), end; !code && entry != end;
-       entry.increment(code))
-    if (entry->path().extension() == ".json" || entry->path().extension() == ".png")
-      record.inputs_elsewhere.push_back(entry->path());
-  std::sort(record.inputs_elsewhere.begin(), record.inputs_elsewhere.end());
-  for (fs::directory_iterator entry(results / "pictures", code), end; !code && entry != end;
-       entry.increment(code))
-    if (viz::IsStandardPicture(entry->path().filename().string()))
-      record.inputs.push_back("pictures/" + entry->path().filename().string());
-  std::sort(record.inputs.begin(), record.inputs.end());
-  return record;
 }
 
 }  // namespace
@@ -139,7 +86,7 @@ Result<ArrayCalibration> LoadCalibration(const Session& session, const fs::path&
 }
 
 Result<Session> OpenSession(const fs::path& folder, const fs::path& results,
-                            const fs::path& corners) {
+                            const fs::path& corners, ResultsLock& lock, Earlier earlier) {
   TELESTRAIN_ASSIGN_OR_RETURN(Session session, ReadSession(folder, !corners.empty()));
   std::error_code code;
   if (fs::equivalent(folder, results, code))
@@ -154,6 +101,12 @@ Result<Session> OpenSession(const fs::path& folder, const fs::path& results,
   TELESTRAIN_ASSIGN_OR_RETURN(const std::string inputs, InputsText(session, corners));
   TELESTRAIN_RETURN_IF_ERROR(CheckTrail(results));
   TELESTRAIN_RETURN_IF_ERROR(EnsureFolder(results));
+  TELESTRAIN_ASSIGN_OR_RETURN(lock, ResultsLock::Take(results));
+  if (earlier == Earlier::kKept) {
+    TELESTRAIN_ASSIGN_OR_RETURN(const bool is_open, IsOpen(results, inputs, corners));
+    if (is_open) TELESTRAIN_RETURN_IF_ERROR(WritePlace(folder, results));
+    if (is_open) return session;
+  }
   TELESTRAIN_RETURN_IF_ERROR(RemoveOutputsFrom(results, Step::kDetect));
   TELESTRAIN_RETURN_IF_ERROR(WriteFileAtomically(results / "inputs.json", inputs));
   TELESTRAIN_RETURN_IF_ERROR(RecordOpening(folder, results, corners));
@@ -169,7 +122,13 @@ Result<Session> ReopenSession(const fs::path& folder, const fs::path& results) {
 }
 
 Status DetectStep(const Session& session, const fs::path& results, const fs::path& corners,
-                  Console& console) {
+                  Console& console, Earlier earlier) {
+  const StepRecord record = DetectRecord(session, corners);
+  if (earlier == Earlier::kKept) {
+    TELESTRAIN_ASSIGN_OR_RETURN(const bool kept, IsKept(results, record, console));
+    if (kept) return {};
+    TELESTRAIN_RETURN_IF_ERROR(RemoveOutputsFrom(results, Step::kDetect));
+  }
   TELESTRAIN_ASSIGN_OR_RETURN(
       const Detection detection,
       corners.empty() ? DetectAll(session, console) : ImportCorners(session, corners, console));
@@ -184,15 +143,15 @@ Status DetectStep(const Session& session, const fs::path& results, const fs::pat
   for (const BoardObservation& board : detection.boards)
     if (!board.rejected_because.empty())
       console.Note("  not used: " + board.image + " " + board.view + ": " + board.rejected_because);
-  return RecordStep(results, {"detect",
-                              {{"corners", corners.string()}},
-                              TargetFiles(session),
-                              {"inputs.json"},
-                              IfGiven(corners),
-                              {"corners.vnl", "corner_covariances.csv", "detection.json"}});
+  return RecordStep(results, record);
 }
 
-Status VerifyStep(const Session& session, const fs::path& results, Console& console) {
+Status VerifyStep(const Session& session, const fs::path& results, Console& console,
+                  Earlier earlier) {
+  if (earlier == Earlier::kKept) {
+    TELESTRAIN_ASSIGN_OR_RETURN(const bool kept, IsKept(results, VerifyRecord(), console));
+    if (kept) return {};
+  }
   TELESTRAIN_ASSIGN_OR_RETURN(const ArrayCalibration array, LoadCalibration(session, results));
   TELESTRAIN_ASSIGN_OR_RETURN(const std::vector<CrossObservation> crosses,
                               ReadDetectedCrosses(results));
@@ -222,44 +181,6 @@ Status VerifyStep(const Session& session, const fs::path& results, Console& cons
     if (!length.rejected_because.empty())
       console.Note("  not used: " + length.image + ": " + length.rejected_because);
   return RecordStep(results, VerifyRecord());
-}
-
-Result<int> ReportStep(const fs::path& results, const ReportChoices& choices, Console& console) {
-  TELESTRAIN_RETURN_IF_ERROR(RequireConsistent(results, Step::kReport));
-  std::error_code code;
-  if (!fs::exists(results / "calibration.json", code))
-    return BadInput((results / "calibration.json").string() +
-                    ": does not exist; run 'telestrain calibrate' first");
-  std::set<std::string> untranslated;
-  const ReportOptions options{choices.templates,
-                              choices.layout,
-                              choices.language,
-                              choices.level,
-                              [&](const std::string& text) { untranslated.insert(text); },
-                              [&](const std::string& note) { console.Note("  " + note); }};
-  // A wrong layout must be known before an older report goes.
-  TELESTRAIN_ASSIGN_OR_RETURN(const ReportScope scope, ScopeOf(options, choices.against));
-  for (const std::string& change : ChangesSinceRecorded(results)) console.Warn(change);
-  TELESTRAIN_RETURN_IF_ERROR(RemoveOutputsFrom(results, Step::kReport));
-  TELESTRAIN_ASSIGN_OR_RETURN(const Outcome outcome, MakeResults(results, scope));
-  Json recorded{{"template", choices.layout},
-                {"templates", choices.templates.string()},
-                {"against", choices.against.string()}};
-  TELESTRAIN_RETURN_IF_ERROR(RecordStep(results, ResultsRecord(recorded, choices.against)));
-  TELESTRAIN_RETURN_IF_ERROR(WriteReport(results, options));
-  recorded["language"] = choices.language;
-  recorded["archive-level"] = choices.level == ArchiveLevel::k1b ? "1b" : "3a";
-  TELESTRAIN_RETURN_IF_ERROR(
-      RecordStep(results, ReportRecord(results, choices.templates, recorded)));
-  console.Say("report     " +
-              fs::absolute(results / "report.pdf", code).lexically_normal().string());
-  console.Say("verdict    " + outcome.verdict);
-  if (!untranslated.empty())
-    console.Note("  printed in English for want of a translation: " +
-                 CountText(untranslated.size(), "text") + ", the first is '" +
-                 *untranslated.begin() + "'");
-  TELESTRAIN_RETURN_IF_ERROR(SayWhy(results, console));
-  return outcome.accepted ? 0 : 1;
 }
 
 }  // namespace telestrain

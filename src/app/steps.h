@@ -5,6 +5,7 @@
 #include <string>
 
 #include "app/command.h"
+#include "app/results_lock.h"
 #include "app/watched_folder.h"
 #include "base/console.h"
 #include "base/result.h"
@@ -21,12 +22,19 @@ namespace telestrain {
 
 // Every step that writes results adds its entry to the folder's audit.jsonl, at its end.
 
+// What becomes of the files that an earlier run of the same step left. `kKept`: when the trail says
+// that they were made by this program from the same inputs with the same options, and they lie
+// there as they were made, the step is not done again and says so.
+enum class Earlier { kMadeAgain, kKept };
+
 // Reads the session, prepares the results folder and writes inputs.json with every file's hash,
 // session.toml as it was read, and session.path: where the session lies.
-// With `corners` (a corners.vnl) the calibration images need not be there.
+// With `corners` (a corners.vnl; or empty) the calibration images need not be there. `lock` is of
+// the results folder, and taken again when that is made here.
 Result<Session> OpenSession(const std::filesystem::path& folder,
                             const std::filesystem::path& results,
-                            const std::filesystem::path& corners = {});
+                            const std::filesystem::path& corners, ResultsLock& lock,
+                            Earlier earlier = Earlier::kMadeAgain);
 // For the steps after `detect`: reads the session and requires that inputs.json was made from it.
 Result<Session> ReopenSession(const std::filesystem::path& folder,
                               const std::filesystem::path& results);
@@ -36,7 +44,8 @@ Result<ArrayCalibration> LoadCalibration(const Session& session,
                                          const std::filesystem::path& results);
 
 Status DetectStep(const Session& session, const std::filesystem::path& results,
-                  const std::filesystem::path& corners, Console& console);
+                  const std::filesystem::path& corners, Console& console,
+                  Earlier earlier = Earlier::kMadeAgain);
 
 // A calibration.json with its hash.
 struct EarlierCalibration {
@@ -56,11 +65,15 @@ struct CalibrateChoices {
 // Reads the earlier calibration when one is named. Fails (kUsage) for a culled region that is none.
 Result<CalibrateChoices> ReadChoices(const CalibrateArguments& arguments);
 Status CalibrateStep(const Session& session, const std::filesystem::path& results,
-                     const CalibrateChoices& choices, Console& console);
+                     const CalibrateChoices& choices, Console& console,
+                     Earlier earlier = Earlier::kMadeAgain);
 // Reads the results folder only; `with_table`: says every figure, not only the outcome. The value
 // is an exit code: 1 when mrcal disagrees.
 Result<int> DiagnoseStep(const std::filesystem::path& results, bool with_table, Console& console);
-Status VerifyStep(const Session& session, const std::filesystem::path& results, Console& console);
+// As `run` does it: only the outcome, which decides nothing.
+Status DiagnoseStep(const std::filesystem::path& results, Console& console, Earlier earlier);
+Status VerifyStep(const Session& session, const std::filesystem::path& results, Console& console,
+                  Earlier earlier = Earlier::kMadeAgain);
 
 // How `measure` works beside its defaults.
 struct MeasureChoices {
@@ -72,9 +85,10 @@ struct MeasureChoices {
 Result<MeasureChoices> ReadChoices(const MeasureArguments& arguments);
 // Goes on from the states that an earlier run of the same inputs left.
 Status MeasureStep(const Session& session, const std::filesystem::path& results,
-                   const MeasureChoices& choices, Console& console);
+                   const MeasureChoices& choices, Console& console,
+                   Earlier earlier = Earlier::kMadeAgain);
 // The standard pictures as the report wants them.
-Status RenderStep(const std::filesystem::path& results, Console& console);
+Status RenderStep(const std::filesystem::path& results, Console& console, Earlier earlier);
 // Other pictures; `out` empty: the results' pictures folder, where a single view replaces its own
 // file and nothing else goes but a report that shows it.
 Status RenderStep(const std::filesystem::path& results, const RenderOptions& options,
@@ -89,6 +103,6 @@ struct ReportChoices {
 // Writes results.json and report.pdf. The value is the exit code of the verdict. Fails with kUsage
 // (no such layout or language; a layout that compares without `against`, or the other way round).
 Result<int> ReportStep(const std::filesystem::path& results, const ReportChoices& choices,
-                       Console& console);
+                       Console& console, Earlier earlier = Earlier::kMadeAgain);
 
 }  // namespace telestrain

@@ -90,12 +90,12 @@ std::optional<MeasuredState> StrainJournal::Known(std::size_t index, const PipeS
 
 // The files hold what was added so far and no more.
 Status StrainJournal::Settle() {
-  std::string records;
-  for (std::size_t i = 0; i < count_; ++i) records += lines_[i];
+  for (std::size_t i = 0; i < count_; ++i) records_ += lines_[i];
   // The records first: a state that they name must be whole.
-  TELESTRAIN_RETURN_IF_ERROR(WriteIfOther(results_ / kRecords, records));
+  TELESTRAIN_RETURN_IF_ERROR(WriteIfOther(results_ / kRecords, records_));
   TELESTRAIN_RETURN_IF_ERROR(RemoveSurfacesFrom(results_, count_));
-  TELESTRAIN_RETURN_IF_ERROR(WriteIfOther(results_ / kTable, StrainCsvHeader() + csv_));
+  csv_ = StrainCsvHeader() + csv_;
+  TELESTRAIN_RETURN_IF_ERROR(WriteIfOther(results_ / kTable, csv_));
   settled_ = true;
   return {};
 }
@@ -116,8 +116,10 @@ Status StrainJournal::Add(const PipeSequence& sequence, const PipeImage& image,
   record.made_from[kReference] = reference_sha256_;
   if (state.table.temperature_c) record.made_from[kTemperature] = TemperatureText(state.table);
   TELESTRAIN_RETURN_IF_ERROR(WriteFileAtomically(results_ / SurfaceFileName(count_), surface));
-  TELESTRAIN_RETURN_IF_ERROR(AppendToFile(results_ / kTable, StrainCsvLine(state)));
-  TELESTRAIN_RETURN_IF_ERROR(AppendToFile(results_ / kRecords, StateRecordLine(record)));
+  csv_ += StrainCsvLine(state);
+  records_ += StateRecordLine(record);
+  TELESTRAIN_RETURN_IF_ERROR(WriteFileAtomically(results_ / kTable, csv_));
+  TELESTRAIN_RETURN_IF_ERROR(WriteFileAtomically(results_ / kRecords, records_));
   ++count_;
   return {};
 }

@@ -10,9 +10,10 @@
 namespace telestrain {
 
 // The files that `measure` makes state by state: pipe_NNN.vtp, then a line of strain.csv, then the
-// line of strain_states.jsonl that makes the state count. A run that is ended at any moment leaves
-// whole states behind; the next one takes over those that were made from the same inputs, to the
-// first one that was not, and ends with the bytes of a run that was never ended.
+// line of strain_states.jsonl that makes the state count. Each is written anew and put in the place
+// of the old one, so that it is whole at any moment. A run that is ended leaves whole states
+// behind; the next one takes over those that were made from the same inputs, to the first one that
+// was not, and ends with the bytes of a run that was never ended.
 class StrainJournal {
  public:
   // Reads what an earlier run left and removes strain.json, which is made from all states.
@@ -46,7 +47,7 @@ class StrainJournal {
   std::map<std::string, std::string> made_from_;
   std::vector<StateRecord> known_;
   std::vector<std::string> lines_;  // of the known records
-  std::string csv_;                 // until the files are settled
+  std::string csv_, records_;       // what the two tables hold
   std::string reference_sha256_;
   std::size_t count_ = 0;
   bool settled_ = false;

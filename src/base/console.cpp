@@ -1,6 +1,7 @@
 #include "base/console.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <string_view>
 
 #include "base/utf8.h"
@@ -35,7 +36,9 @@ void Console::ClearBar() {
 void Console::Say(const std::string& line) {
   const std::lock_guard lock(mutex_);
   ClearBar();
+  errno = 0;
   out_ << PrintableLines(line) << '\n' << std::flush;
+  if (!out_ && out_error_ == 0) out_error_ = errno != 0 ? errno : EIO;
 }
 
 void Console::Note(const std::string& line) {

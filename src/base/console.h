@@ -17,6 +17,9 @@ class Console {
   void Note(const std::string& line);  // one line of side information
   void Warn(const std::string& line);  // one line, marked as a warning
 
+  // 0, or the errno of the first line of result that could not be written.
+  int OutError() const { return out_error_; }
+
   // Redraws the bar "label [####----] done/total"; ends the line when done == total. Thread-safe.
   void Progress(const std::string& label, int done, int total);
 
@@ -29,6 +32,7 @@ class Console {
   std::ostream err_;
   bool show_progress_;
   bool bar_on_screen_ = false;
+  int out_error_ = 0;
   std::mutex mutex_;
 };
 

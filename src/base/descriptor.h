@@ -2,6 +2,9 @@
 
 #include <unistd.h>
 
+#include <cerrno>
+#include <utility>
+
 namespace telestrain {
 
 // An open file descriptor that closes itself; -1: none.
@@ -13,6 +16,8 @@ struct Descriptor {
   ~Descriptor() {
     if (value >= 0) ::close(value);
   }
+  // What was written may turn out here not to have reached the disk. Returns 0 or errno.
+  int Close() { return ::close(std::exchange(value, -1)) == 0 ? 0 : errno; }
 };
 
 }  // namespace telestrain

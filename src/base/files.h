@@ -18,12 +18,24 @@ Result<std::string> ReadFile(const std::filesystem::path& path, std::size_t most
 
 // Writes `bytes` under a temporary name beside `path`, syncs and renames, so that `path` is
 // either the old file or the whole new one, with the permissions of the old one. A symbolic link is
-// replaced, not followed. Fails (kOutputFailed) and removes the temporary.
+// replaced, not followed. Fails (kOutputFailed) with the path, the system's reason and what to do,
+// and removes the temporary.
 Status WriteFileAtomically(const std::filesystem::path& path, std::string_view bytes);
 
 // Adds `bytes` to the end of a file, which is made when it is missing, and syncs. Other readers see
-// the old end or the new one; a crash of the machine may leave a part. Fails (kOutputFailed).
+// the old end or the new one; a program that is killed, or the machine, may leave a part, a write
+// that fails does not. Fails (kOutputFailed).
 Status AppendToFile(const std::filesystem::path& path, std::string_view bytes);
+
+// The error of a file that could not be written, with the remedy that fits the errno.
+Error CannotWrite(const std::filesystem::path& path, int error_number);
+// The same of a file that cannot be taken away; `what` it is stands before the words.
+Error CannotRemove(const std::filesystem::path& path, const std::string& what, int error_number);
+
+// Whether WriteFileAtomically gives a file such a name until it is whole.
+bool IsTemporary(const std::string& name);
+// Removes what killed programs left of that in the folder, which nobody else may be writing to.
+Status RemoveTemporaries(const std::filesystem::path& folder);
 
 // Creates the folder and its parents; fails (kOutputFailed) when `path` exists and is no folder.
 Status EnsureFolder(const std::filesystem::path& path);

@@ -8,13 +8,17 @@
 namespace telestrain {
 
 // Holds a file or a folder for this process while it lives, so that two programs do not both read
-// and continue the same thing. Others wait. It is advisory (flock): it holds against programs that
-// take it too, and one object at a time holds a path, also within a process.
+// and continue the same thing. It is advisory (flock): it holds against programs that take it too,
+// and one object at a time holds a path, also within a process. The system lets go of it when the
+// process ends, however that may be, and nothing is written for it.
 class PathLock {
  public:
-  // A file that does not exist is made; a folder must exist. Fails (kOutputFailed) with the path,
-  // the reason and `remedy`.
+  // Waits while another holds it. A file that does not exist is made; a folder must exist. Fails
+  // (kOutputFailed) with the path, the reason and `remedy`.
   static Result<PathLock> Take(const std::filesystem::path& path, const std::string& remedy);
+  // Does not wait: fails (kOutputFailed) when another holds it, with the number of that process
+  // where the system tells it.
+  static Result<PathLock> TakeAtOnce(const std::filesystem::path& path, const std::string& remedy);
 
   PathLock(PathLock&& other) noexcept;
   PathLock(const PathLock&) = delete;
@@ -23,6 +27,8 @@ class PathLock {
 
  private:
   explicit PathLock(int descriptor) : descriptor_(descriptor) {}
+  static Result<PathLock> Lock(const std::filesystem::path& path, const std::string& remedy,
+                               int how);
   int descriptor_;
 };
 

@@ -9,7 +9,7 @@
 namespace telestrain {
 namespace {
 
-class NoOutput : public std::streambuf {
+class SilentBuffer : public std::streambuf {
   int overflow(int c) override { return c; }
 };
 
@@ -28,7 +28,7 @@ class QuietErrors {
     return mutex;
   }
   const std::lock_guard<std::mutex> lock_;
-  NoOutput nothing_;
+  SilentBuffer nothing_;
   std::streambuf* const before_;
 };
 

@@ -119,6 +119,7 @@ class Reader {
     const auto after = [&](const std::string& word) { return Trimmed(body.substr(word.size())); };
     if (body.starts_with("not run:")) not_run_ = after("not run:");
     if (body.starts_with("figures:")) figures_ = after("figures:");
+    if (body.starts_with("options:")) figures_ = body;  // a generated table
     if (!body.starts_with("run:")) return;
     std::istringstream lines(after("run:"));
     for (std::string line; std::getline(lines, line);) {

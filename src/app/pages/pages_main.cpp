@@ -39,7 +39,7 @@ Status UpdateMarkdown(const CLI::App& program, const fs::path& folder) {
   for (const CLI::App* verb : program.get_subcommands({})) {
     const fs::path file = folder / (verb->get_name() + ".md");
     if (!fs::exists(file)) continue;
-    TELESTRAIN_ASSIGN_OR_RETURN(const std::string page, ReadFile(file));
+    TELESTRAIN_ASSIGN_OR_RETURN(const std::string page, ReadFile(file, kMostTextBytes));
     const std::string with_options = WithOptions(page, *verb);
     if (with_options.empty())
       return BadInput(file.string() + ": the lines '" + kOptionsBegin + "' and '" + kOptionsEnd +

@@ -4,7 +4,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <cerrno>
+#include <cstring>
 #include <iterator>
+#include <utility>
 
 #include "tests/unit/base/scratch_folder.h"
 
@@ -46,11 +49,36 @@ TEST(FilesTest, AReplacedFileKeepsItsPermissionsAndNoLinkIsFollowed) {
   ASSERT_TRUE(WriteFileAtomically(file, "new").ok());
   EXPECT_EQ(fs::status(file).permissions(), fs::perms::owner_read | fs::perms::owner_write);
   fs::create_symlink(file, link);
-  fs::create_symlink(file, link.string() + ".part" + std::to_string(::getpid()));
+  fs::create_symlink(file, link.string() + ".telestrain-part-" + std::to_string(::getpid()));
   ASSERT_TRUE(WriteFileAtomically(link, "other").ok());
   EXPECT_EQ(*ReadFile(file, kMostResultBytes), "new");
   EXPECT_FALSE(fs::is_symlink(link));
   EXPECT_EQ(EntryCount(folder.path()), 2);
+}
+
+TEST(FilesTest, WhatAKilledProgramLeftIsToldFromWhatPeopleName) {
+  const ScratchFolder folder("files_left");
+  for (const char* name : {"a.json.telestrain-part-7", "a.json", "a.telestrain-part-",
+                           "a.telestrain-part-7b", ".telestrain-part-7", "a.part7"})
+    ASSERT_TRUE(WriteFileAtomically(folder.path() / name, "x").ok());
+  ASSERT_TRUE(RemoveTemporaries(folder.path()).ok());
+  EXPECT_EQ(EntryCount(folder.path()), 5);
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "a.json.telestrain-part-7"));
+}
+
+TEST(FilesTest, TheRemedyFitsTheReason) {
+  for (const auto& [error, remedy] :
+       {std::pair{ENOSPC, "free some space"}, std::pair{EDQUOT, "free some space"},
+        std::pair{EROFS, "that you may write to"}, std::pair{EACCES, "that you may write to"},
+        std::pair{EIO, "look after it"}, std::pair{EFBIG, "ulimit -f"},
+        std::pair{ENOENT, "make the folder first"}, std::pair{ENAMETOOLONG, "shorter name"}}) {
+    const Error said = CannotWrite("f", error);
+    EXPECT_EQ(said.kind, ErrorKind::kOutputFailed);
+    EXPECT_TRUE(said.message.starts_with(std::string("f: cannot be written: ") +
+                                         std::strerror(error) + "; "))
+        << said.message;
+    EXPECT_NE(said.message.find(remedy), std::string::npos) << said.message;
+  }
 }
 
 TEST(FilesTest, WritingIntoNoFolderFails) {

@@ -1,6 +1,7 @@
 #include "base/path_lock.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <chrono>
@@ -30,6 +31,18 @@ TEST(PathLock, TheSecondWaitsUntilTheFirstIsGone) {
     other.join();
     EXPECT_TRUE(entered) << path;
   }
+}
+
+TEST(PathLock, WhoDoesNotWaitIsToldWhoHoldsIt) {
+  const ScratchFolder scratch("telestrain_path_lock_");
+  const auto first = PathLock::TakeAtOnce(scratch.path(), "none");
+  ASSERT_TRUE(first.ok());
+  const auto second = PathLock::TakeAtOnce(scratch.path(), "wait");
+  ASSERT_FALSE(second.ok());
+  EXPECT_EQ(second.error().kind, ErrorKind::kOutputFailed);
+  EXPECT_EQ(second.error().message, scratch.path().string() + ": is in use by process " +
+                                        std::to_string(::getpid()) + "; wait");
+  EXPECT_TRUE(std::filesystem::is_empty(scratch.path()));
 }
 
 TEST(PathLock, APlaceThatIsNotThereIsAnErrorWithTheRemedy) {
