@@ -35,7 +35,7 @@ void FuzzResults(std::string_view input) {
   if (!Succeeds(MakeResults(folder.path(), scope))) return;
   const auto results = ReadJson(folder.path() / "results.json", "telestrain.results/1", "");
   Require(results.ok(), "results.json reads: " + (results ? "" : results.error().message));
-  const auto dcc = ReadFile(folder.path() / "dcc.xml");
+  const auto dcc = ReadFile(folder.path() / "dcc.xml", kMostJsonBytes);
   Require(dcc.ok() && IsWellFormedXml(*dcc), "dcc.xml is well-formed XML");
 }
 
