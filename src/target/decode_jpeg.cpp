@@ -7,6 +7,7 @@
 
 #include <csetjmp>
 
+#include "target/image_header.h"
 #include "target/pixel_decoders.h"
 
 namespace telestrain {
@@ -53,6 +54,13 @@ bool ReadPixels(Decoder* decoder, std::string_view bytes, cv::Mat* pixels) {
   jpeg_create_decompress(jpeg);
   jpeg_mem_src(jpeg, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());
   jpeg_read_header(jpeg, TRUE);
+  // A marker without a length, before the frame, leads readers of the header elsewhere.
+  const auto stated = SizeFromHeader(bytes);
+  if (!stated || stated->width_px != jpeg->image_width || stated->height_px != jpeg->image_height) {
+    std::snprintf(decoder->reason, sizeof decoder->reason, "a second size, %u x %u px",
+                  jpeg->image_width, jpeg->image_height);
+    return false;
+  }
   if (jpeg->num_components != 1 && jpeg->num_components != 3) {
     std::snprintf(decoder->reason, sizeof decoder->reason, "%d colours, as of CMYK",
                   jpeg->num_components);

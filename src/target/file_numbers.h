@@ -6,6 +6,8 @@
 
 namespace telestrain {
 
+inline constexpr std::uint32_t kTiffShort = 3, kTiffLong = 4;  // types of a tag's value
+
 // `count` bytes (up to 4) at `at` as an unsigned number; 0 where they reach beyond the end.
 inline std::uint32_t Unsigned(std::string_view bytes, std::size_t at, std::size_t count,
                               bool big_endian) {

@@ -8,6 +8,8 @@
 namespace telestrain {
 namespace {
 
+using namespace std::string_view_literals;
+
 std::optional<ImageSize> BmpSize(std::string_view bytes) {
   const auto height = static_cast<int>(Unsigned(bytes, 22, 4, false));
   return ImageSize{Unsigned(bytes, 18, 4, false), std::llabs(height)};  // top-down if negative
@@ -32,7 +34,8 @@ std::optional<ImageSize> PnmSize(std::string_view bytes) {
   return ImageSize{values[0], values[1]};
 }
 
-// Tags 256 and 257 of the first directory.
+// Tags 256 and 257 of the first directory; of a tag that comes twice the first counts, as for
+// libtiff. Values of 8 bytes stand elsewhere, those of signed or single bytes are no sizes of ours.
 std::optional<ImageSize> TiffSize(std::string_view bytes, bool big_endian) {
   const std::size_t directory = Unsigned(bytes, 4, 4, big_endian);
   const std::uint32_t count = Unsigned(bytes, directory, 2, big_endian);
@@ -40,10 +43,12 @@ std::optional<ImageSize> TiffSize(std::string_view bytes, bool big_endian) {
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t entry = directory + 2 + 12 * i;
     const std::uint32_t tag = Unsigned(bytes, entry, 2, big_endian);
-    const bool is_short = Unsigned(bytes, entry + 2, 2, big_endian) == 3;
-    const std::uint32_t value = Unsigned(bytes, entry + 8, is_short ? 2 : 4, big_endian);
-    if (tag == 256) size.width_px = value;
-    if (tag == 257) size.height_px = value;
+    const std::uint32_t type = Unsigned(bytes, entry + 2, 2, big_endian);
+    if (tag != 256 && tag != 257) continue;
+    if (type != kTiffShort && type != kTiffLong) return std::nullopt;
+    long long& extent_px = tag == 256 ? size.width_px : size.height_px;
+    if (extent_px == 0)
+      extent_px = Unsigned(bytes, entry + 8, type == kTiffShort ? 2 : 4, big_endian);
   }
   return size;
 }
@@ -72,9 +77,9 @@ std::optional<ImageSize> SizeFromHeader(std::string_view bytes) {
     size = BmpSize(bytes);
   else if (bytes.size() > 2 && bytes[0] == 'P' && bytes[1] >= '1' && bytes[1] <= '6')
     size = PnmSize(bytes);
-  else if (bytes.starts_with("II"))
+  else if (bytes.starts_with("II*\0"sv))
     size = TiffSize(bytes, false);
-  else if (bytes.starts_with("MM"))
+  else if (bytes.starts_with("MM\0*"sv))
     size = TiffSize(bytes, true);
   else if (bytes.starts_with("\xFF\xD8"))
     size = JpegSize(bytes);

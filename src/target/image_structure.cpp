@@ -2,6 +2,7 @@
 
 #include <cctype>
 #include <cmath>
+#include <set>
 
 #include "target/file_numbers.h"
 #include "target/image_header.h"
@@ -109,13 +110,17 @@ struct TiffFacts {
 
 TiffFacts FactsOf(std::string_view bytes, std::size_t directory, std::uint32_t count, bool big) {
   TiffFacts facts;
+  std::set<std::uint32_t> seen;
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t entry = directory + 2 + 12 * i;
-    const bool is_short = Unsigned(bytes, entry + 2, 2, big) == 3;
-    const long long value = Unsigned(bytes, entry + 8, is_short ? 2 : 4, big);
     const std::uint32_t tag = Unsigned(bytes, entry, 2, big);
-    const bool is_alone = Unsigned(bytes, entry + 4, 4, big) == 1;
-    if (tag == 258 && is_alone) facts.bits = value;
+    if (!seen.insert(tag).second) continue;  // libtiff takes the first
+    const bool is_short = Unsigned(bytes, entry + 2, 2, big) == kTiffShort;
+    // More than two shorts, one for each sample, stand elsewhere; the first is like the others.
+    const bool is_elsewhere = is_short && Unsigned(bytes, entry + 4, 4, big) > 2;
+    const std::size_t place = is_elsewhere ? Unsigned(bytes, entry + 8, 4, big) : entry + 8;
+    const long long value = Unsigned(bytes, place, is_short ? 2 : 4, big);
+    if (tag == 258) facts.bits = value;
     if (tag == 259) facts.compression = value;
     if (tag == 277) facts.samples = value;
     if (tag == 322) facts.tile_width = value;

@@ -104,6 +104,29 @@ TEST(DamagedImage, SizesThatTheFileCannotHold) {
   ExpectRefused(bmp, "too few for the 9999 x 9999 px");
 }
 
+// A marker without a length hides the real frame from who takes the next bytes for one.
+TEST(DamagedImage, AJpegOfTwoSizes) {
+  const std::string real = Encoded(".jpg", Noise(40, 30)).substr(2);
+  constexpr std::size_t kJump = 4 + 0xFFE0;  // over the "length" FF E0
+  std::string jpeg = "\xFF\xD8\xFF\x01" + real;
+  jpeg.resize(kJump, '\0');
+  jpeg += std::string("\xFF\xC0\0\x11\x08\0\x0c\0\x10\3", 10) + std::string(9, '\1') + "\xFF\xD9";
+  ExpectRefused(jpeg, "a second size, 40 x 30 px");
+}
+
+// The width of one would stand elsewhere, and all of the other.
+TEST(DamagedImage, ATiffWhoseSizeStandsElsewhere) {
+  const std::string tiff = Encoded(".tif", Noise(40, 30));
+  ASSERT_EQ(tiff.substr(0, 4), std::string("II*\0", 4));
+  const std::size_t width = tiff.find(std::string("\0\1\3\0\1\0\0\0\x28", 9));
+  ASSERT_NE(width, std::string::npos);
+  std::string long8 = tiff, big = tiff;
+  long8[width + 2] = 16;
+  big[2] = 43;
+  for (const std::string& bytes : {long8, big})
+    ExpectRefused(bytes, "does not begin like an image");
+}
+
 TEST(DamagedImage, TextsOfAPngThatUnpackToGigabytesAreNotKept) {
   std::string rows, texts;
   const cv::Mat pixels = Noise(40, 30);

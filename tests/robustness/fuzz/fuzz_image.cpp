@@ -27,7 +27,6 @@ void CheckPixels(const GrayImage& image) {
 void FuzzImage(std::string_view input) {
   static MemoryFolder folder("image_");
   const std::string bytes(input);
-  static_cast<void>(IsCutShort(bytes));
   Succeeds(CheckImageBytes("image", bytes));
   Succeeds(CheckImageBytes("image", bytes, 64, 48));
   const auto size = SizeFromHeader(bytes);
