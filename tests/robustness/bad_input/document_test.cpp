@@ -12,6 +12,7 @@
 #include "report/template_folder.h"
 #include "robustness/bad_input/damaged_folder.h"
 #include "robustness/bad_input/verb_run.h"
+#include "unit/base/scratch_folder.h"
 
 namespace telestrain::testing_support {
 namespace {
@@ -103,7 +104,8 @@ TEST_F(DamagedKey, CertificatesCutShort) {
 class DamagedLayout : public SmallRun {};
 
 TEST_F(DamagedLayout, NamesItsFile) {
-  const fs::path own = Scratch() / "own";
+  const ScratchFolder scratch("telestrain_bad_layout_");
+  const fs::path own = scratch.path() / "own";
   fs::create_directories(own / "texts");
   const std::string layout = TemplateFolder::BuiltIn("strain.json").text;
   const auto refused = [&](const std::string& bytes) {

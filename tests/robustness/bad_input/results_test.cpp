@@ -11,6 +11,7 @@
 #include "session/made_from.h"
 #include "session/session.h"
 #include "target/detection.h"
+#include "unit/base/scratch_folder.h"
 #include "viz/scene_from_results.h"
 
 namespace telestrain::testing_support {
@@ -121,7 +122,8 @@ TEST_F(DamagedResults, AuditTrail) {
 // The verbs whole: few cases in the short form, since each may draw and write a report.
 TEST_F(DamagedResults, EveryVerbThatReadsThem) {
   const int sample = IsLongForm() ? 400 : 3;
-  const std::string out = (Scratch() / "out").string();
+  const ScratchFolder scratch("telestrain_bad_verbs_");
+  const std::string out = (scratch.path() / "out").string();
   const std::vector<std::pair<std::string, DamagedFolder::Reader>> cases{
       {"calibration.json",
        WordsOf({"verify", SmallSession().string(), "--out", Results().string()})},

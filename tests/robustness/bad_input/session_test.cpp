@@ -127,11 +127,11 @@ TEST_F(DamagedSession, NumbersThatAreNone) {
 
 TEST_F(DamagedSession, PathsThatLeaveIt) {
   const std::string first = "calibration/pose_001_stage_0.png";
-  for (const std::string path :
+  for (const char* path :
        {"/etc/passwd", "../../etc/passwd", "calibration/../../x.png", "..", "//etc/passwd"})
     ExpectRefused("calibration.csv", Replaced(Bytes("calibration.csv"), first, path),
                   "leaves the session folder");
-  for (const std::string path :
+  for (const std::string& path :
        {std::string(5000, 'a'), std::string("calibration"), std::string("~/x.png"), first + "/"})
     ExpectRefused("calibration.csv", Replaced(Bytes("calibration.csv"), first, path),
                   "calibration.csv:2: the image");

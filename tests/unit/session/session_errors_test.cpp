@@ -139,7 +139,8 @@ TEST(ReadSessionErrorTest, UnreadableImage) {
 TEST(ReadSessionErrorTest, ZeroByteInAPath) {
   const SampleFolder sample("zero_byte");
   sample.Replace("calibration.csv", "images/c1.png", std::string("images/c1.png\0.x", 16));
-  ExpectSays(MessageOf(sample), "calibration.csv:3: byte 14 of the line is the control character \\x00");
+  ExpectSays(MessageOf(sample),
+             "calibration.csv:3: byte 14 of the line is the control character \\x00");
 }
 
 TEST(ReadSessionErrorTest, NestingAndLineLengthAreBounded) {
