@@ -102,8 +102,8 @@ void SchemaChecker::CheckText(const Json& rule, const std::string& pointer, cons
   // std::regex calls itself for every character, so a long word would run out of stack.
   constexpr std::size_t kLongestWord = 200;
   if (word.size() > kLongestWord)
-    Fail(pointer, "has " + std::to_string(word.size()) + " bytes, a " + noun + " has at most " +
-                      std::to_string(kLongestWord));
+    return Fail(pointer, "has " + std::to_string(word.size()) + " bytes, a " + noun +
+                             " has at most " + std::to_string(kLongestWord));
   if (!std::regex_search(word, std::regex(rule["pattern"].get<std::string>())))
     Fail(pointer, "is " + Shown(value) + ", wanted a " + noun);
 }

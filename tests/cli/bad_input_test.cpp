@@ -31,7 +31,7 @@ TEST_F(BadInput, AnImageOfAnotherSizeIsNamedWithBothSizes) {
 TEST_F(BadInput, AnImageCutShortIsNamedBeforeAnythingIsWritten) {
   for (const std::string file : {"pipe/pipe_002.png", "calibration/pose_004_stage_1.png"}) {
     KeepBytes(file, 90000);
-    ExpectBadInput({file + ": ", "cut short", "copy it again"});
+    ExpectBadInput({file + ": ", "breaks off", "copy it again"});
     std::filesystem::copy_file(SmallSession() / file, session() / file,
                                std::filesystem::copy_options::overwrite_existing);
   }
