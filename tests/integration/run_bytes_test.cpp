@@ -42,7 +42,7 @@ Surroundings FarAway(const fs::path& folder) {
               (folder / "locales/de_DE.UTF-8").string()});
   return {folder,
           {{"HOME", (folder / "home").string()},
-           {"TZ", "XXX-12:34"},
+           {"TZ", "ABC-12:34"},
            {"LOCPATH", (folder / "locales").string()},
            {"LANG", "de_DE.UTF-8"},
            {"LC_ALL", "de_DE.UTF-8"},

@@ -71,7 +71,7 @@ TEST(SigningKey, MustBelongToTheCertificate) {
       Load({PemFile("a.key", Pki().operator_.KeyPem()), PemFile("b.pem", Pki().reviewer.Pem())}),
       "none of the 1 certificates belongs to the private key");
   ExpectRefused(Load({PemFile("b.pem", Pki().reviewer.Pem())}), "0 found");
-  ExpectRefused(Load({"/nonexistent/key.pem"}), "/nonexistent/key.pem: cannot be opened");
+  ExpectRefused(Load({"/nonexistent/key.pem"}), "/nonexistent/key.pem: cannot be read");
   ExpectRefused(Load({PemFile("text.pem", "no key\n")}), "has no key and no certificate");
 }
 
