@@ -7,6 +7,7 @@
 
 #include "base/check.h"
 #include "base/numbers.h"
+#include "base/utf8.h"
 
 namespace telestrain {
 namespace {
@@ -41,7 +42,8 @@ std::string Shown(const Json& value) {
   constexpr std::size_t kLongest = 60;
   if (value.is_object()) return "an object";
   if (value.is_array()) return "a list";
-  if (value.is_string()) return "'" + value.get<std::string>().substr(0, kLongest) + "'";
+  if (value.is_string())
+    return "'" + std::string(FirstCharacters(value.get<std::string>(), kLongest)) + "'";
   return value.dump();
 }
 

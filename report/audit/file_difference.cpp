@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/json_file.h"
+#include "base/utf8.h"
 
 namespace telestrain {
 namespace {
@@ -13,13 +14,9 @@ using Json = nlohmann::ordered_json;
 // More of a value than this helps nobody.
 constexpr std::size_t kLongestValue = 60;
 
-std::string Shortened(std::string text) {
-  if (text.size() <= kLongestValue) return text;
-  std::size_t end = kLongestValue;
-  const auto continues = [&] { return (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80; };
-  while (end > 0 && continues()) --end;  // a character of UTF-8 stays whole
-  text.resize(end);
-  return text + "…";
+std::string Shortened(const std::string& text) {
+  const std::string_view first = FirstCharacters(text, kLongestValue);
+  return first.size() < text.size() ? std::string(first) + "…" : text;
 }
 
 std::string ValueText(const Json& value) {

@@ -81,4 +81,11 @@ std::string PrintableText(std::string_view text) {
   return printable;
 }
 
+std::string_view FirstCharacters(std::string_view text, std::size_t most_bytes) {
+  if (text.size() <= most_bytes) return text;
+  std::size_t end = most_bytes;  // continuation bytes are 10xxxxxx
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;
+  return text.substr(0, end);
+}
+
 }  // namespace telestrain

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 
@@ -14,5 +15,9 @@ bool IsValidUtf8(std::string_view text);
 // paragraph separators, of marks that turn the writing direction, and bytes that are not UTF-8 are
 // written as \xNN. For names and paths that come out of files.
 std::string PrintableText(std::string_view text);
+
+// The first characters of `text`, at most `most_bytes` bytes of them: a cut through a character
+// would leave bytes that are not UTF-8.
+std::string_view FirstCharacters(std::string_view text, std::size_t most_bytes);
 
 }  // namespace telestrain

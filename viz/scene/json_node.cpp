@@ -4,6 +4,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "base/utf8.h"
+
 namespace telestrain::viz {
 namespace {
 
@@ -17,7 +19,10 @@ JsonNode::JsonNode(const nlohmann::ordered_json& json, std::string name)
 void JsonNode::Fail(const std::string& wanted) const {
   std::string found = json_->dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
   constexpr std::size_t kLongestExcerpt = 60;
-  if (found.size() > kLongestExcerpt) found = found.substr(0, kLongestExcerpt) + "...";
+  if (found.size() > kLongestExcerpt) {
+    found.resize(FirstCharacters(found, kLongestExcerpt).size());
+    found += "...";
+  }
   throw BadField((name_.empty() ? "the file" : name_) + ": " + wanted + ", found " + found);
 }
 

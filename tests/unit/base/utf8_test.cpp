@@ -57,5 +57,13 @@ TEST(Utf8Test, EmptyTextAndZeroBytesAreValid) {
   EXPECT_TRUE(IsValidUtf8(std::string("a\0b", 3)));
 }
 
+TEST(Utf8Test, FirstCharactersAreWhole) {
+  const std::string text =
+      "a" + Encoded(0xE4) + Encoded(0x20AC) + Encoded(0x1F600);  // 1+2+3+4 bytes
+  const std::size_t ends[] = {0, 1, 1, 3, 3, 3, 6, 6, 6, 6, 10, 10};
+  for (std::size_t most_bytes = 0; most_bytes < std::size(ends); ++most_bytes)
+    EXPECT_EQ(FirstCharacters(text, most_bytes), text.substr(0, ends[most_bytes])) << most_bytes;
+}
+
 }  // namespace
 }  // namespace telestrain
