@@ -60,7 +60,7 @@ INSTANTIATE_TEST_SUITE_P(
                               "name = \"B1\"",
                               "name = \"B1\\t\"",
                               "name = \"B1",
-                              {"holds white space"}},
+                              {"without control characters"}},
                     Malformed{"NameWithHash",
                               kToml,
                               "name = \"B1\"",

@@ -88,7 +88,7 @@ TEST(ReadSessionErrorTest, LinksThatLeaveTheFolder) {
   sample.Remove("images/c1.png");
   std::filesystem::create_symlink(outside.path() / "images/c1.png", link);
   ExpectSays(MessageOf(sample), "calibration.csv:3: the image 'images/c1.png' leaves the session");
-  ExpectSays(MessageOf(sample), "copy the image itself into the folder");
+  ExpectSays(MessageOf(sample), "copy the file itself into the folder");
   sample.Remove("images/c1.png");
   std::filesystem::create_symlink("../../nowhere.png", link);
   ExpectSays(MessageOf(sample), "calibration.csv:3: the image 'images/c1.png' ");
