@@ -117,7 +117,7 @@ std::vector<std::string> TemplateFolder::Names(const std::string& folder) const 
 Result<Json> ParseTemplate(const TemplateFile& file) {
   if (IsJsonDeeper(file.text))
     return BadInput(file.where + ": is nested deeper than " + std::to_string(kDeepestJson) +
-                    " brackets");
+                    " brackets; write it flatter");
   try {
     RepeatedKey repeated;
     Json json = Json::parse(file.text, [&](int, Json::parse_event_t event, const Json& parsed) {
@@ -125,7 +125,8 @@ Result<Json> ParseTemplate(const TemplateFile& file) {
       return true;
     });
     if (!repeated.pointer().empty())
-      return BadInput(file.where + ": " + repeated.pointer() + ": the key stands there twice");
+      return BadInput(file.where + ": " + repeated.pointer() +
+                      ": the key stands there twice; remove one of them");
     return json;
   } catch (const nlohmann::json::exception& e) {
     return BadInput(file.where + ": is not valid JSON: " + e.what());

@@ -62,7 +62,8 @@ std::string FirstWarning(QPDF& pdf) {
 
 Result<PdfContents> ReadPdfContents(const std::string& name, const std::string& bytes) {
   const auto fail = [&](const std::string& reason) {
-    return BadInput(name + ": is no undamaged PDF report: " + reason);
+    return BadInput(name + ": is no undamaged PDF report: " + reason +
+                    "; copy it again from where it was made");
   };
   if (bytes.size() > kMostReportBytes)
     return fail("it has " + std::to_string(bytes.size()) + " bytes, at most " +

@@ -99,7 +99,9 @@ Status LoadSource(const std::string& source, Password& password, Loaded* loaded)
   if (password.error) return *password.error;
   const std::string reason = OpenSslReason();
   if (failed && password.asked)
-    return BadInput(source + ": cannot be unlocked: the password is wrong or the file is damaged");
+    return BadInput(source +
+                    ": cannot be unlocked: the password is wrong or the file is damaged; try "
+                    "again, or copy the file anew");
   if (failed || loaded->keys.size() + loaded->certificates.size() == before)
     return BadInput(source + ": has no key and no certificate (" + reason +
                     "); want PEM, DER or PKCS#12");
@@ -148,7 +150,7 @@ Result<SigningKey> LoadSigningKey(const KeySources& sources) {
     TELESTRAIN_RETURN_IF_ERROR(LoadSource(source, password, &loaded));
   if (loaded.keys.size() != 1)
     return BadInput("one private key is needed to sign, " + std::to_string(loaded.keys.size()) +
-                    " found in " + sources.sources.front());
+                    " found in " + sources.sources.front() + "; name the file of the key");
   TELESTRAIN_RETURN_IF_ERROR(CheckAlgorithm(loaded.keys[0].get()));
   SigningKey key;
   key.key = std::move(loaded.keys[0]);

@@ -28,9 +28,19 @@ std::optional<Error> ErrorOf(const Result<T>& result) {
 class DamagedResults : public SmallRun {
  protected:
   static DamagedFolder& Folder() {
-    static DamagedFolder folder(Results());
+    static DamagedFolder folder(Own());
     return folder;
   }
+  // A copy, to be damaged.
+  static const fs::path& Own() {
+    static const ScratchFolder scratch("telestrain_bad_results_");
+    static const fs::path own = [] {
+      fs::copy(SmallRun::Results(), scratch.path() / "results", fs::copy_options::recursive);
+      return scratch.path() / "results";
+    }();
+    return own;
+  }
+  static fs::path Results() { return Own(); }
   static const Session& TheSession() {
     static const Session session = ReadSession(SmallSession()).value();
     return session;
