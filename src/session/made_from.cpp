@@ -37,8 +37,10 @@ Status RequireConsistent(const fs::path& results, Step before) {
       if (source.empty() || source.find('/') != std::string::npos || source == "..")
         return BadInput((results / name).string() + ": made_from names '" + PrintableText(source) +
                         "', which is no file beside it; run '" + maker + "' again");
-      TELESTRAIN_ASSIGN_OR_RETURN(const std::string found, Sha256HexOfFile(results / source));
-      if (hash == found) continue;
+      const Result<std::string> found = Sha256HexOfFile(results / source);
+      if (!found)
+        return BadInput((results / name).string() + ": was made from " + found.error().message);
+      if (hash == *found) continue;
       return BadInput((results / name).string() + ": was made from another " + source +
                       " than the one that lies beside it; run '" + maker + "' again");
     }

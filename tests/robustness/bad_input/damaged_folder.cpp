@@ -16,6 +16,23 @@ std::string FaultOfMessage(const std::string& message, const std::string& file) 
   return "";
 }
 
+namespace {
+
+// Names only: a message with the bytes would take gigabytes.
+std::vector<std::string> Differing(const std::map<std::string, std::string>& found,
+                                   const std::map<std::string, std::string>& expected) {
+  std::vector<std::string> names;
+  for (const auto& [name, bytes] : expected) {
+    const auto at = found.find(name);
+    if (at == found.end() || at->second != bytes) names.push_back(name);
+  }
+  for (const auto& [name, bytes] : found)
+    if (!expected.contains(name)) names.push_back("new: " + name);
+  return names;
+}
+
+}  // namespace
+
 DamagedFolder::DamagedFolder(fs::path folder)
     : folder_(std::move(folder)), before_(BytesBelow(folder_)) {}
 
@@ -58,7 +75,7 @@ int DamagedFolder::ExpectRefusedOrTaken(const std::string& file,
           << PrintableText(error->message);
       auto expected = before_;
       expected[file] = damage.bytes;
-      EXPECT_EQ(BytesBelow(folder_), expected) << "a file was changed";
+      EXPECT_EQ(Differing(BytesBelow(folder_), expected), std::vector<std::string>());
     }
     PutBack();
   }

@@ -54,7 +54,8 @@ class DamagedResults : public SmallRun {
     const std::string bytes = Folder().Bytes(file);
     EXPECT_GT(Refusals(file, JsonDamages(Json::parse(bytes), sample), read), 0);
     const auto cut = Truncations(bytes, 12);
-    EXPECT_EQ(Refusals(file, cut, read), static_cast<int>(cut.size()));
+    // The last line feed may be missing.
+    EXPECT_GE(Refusals(file, cut, read), static_cast<int>(cut.size()) - 1);
     EXPECT_GT(Refusals(file, Flips(bytes, 25), read), 0);
   }
   // `verb RESULTS more…` in this process.
