@@ -93,7 +93,7 @@ Result<AuditTrail> AuditTrail::Open(const fs::path& file, const fs::path& key_fi
   text.resize(whole_bytes);
   auto entries = ReadLines(file.string(), text, trail.key_ ? &*trail.key_ : nullptr);
   if (!entries)
-    return BadInput(entries.error().message + "; bring back the file as it was, or move it away");
+    return BadInput(entries.error().message + "; bring back the file as it was");
   trail.entries_ = std::move(*entries);
   return trail;
 }

@@ -8,6 +8,7 @@
 #include "app/steps.h"
 #include "base/json_file.h"
 #include "base/numbers.h"
+#include "report/earlier_results.h"
 #include "report/template_list.h"
 #include "viz/picture_set.h"
 
@@ -55,6 +56,9 @@ Result<ReportScope> ScopeOf(const ReportOptions& options, const fs::path& agains
   if (!layout.against_earlier && !against.empty())
     return Error{ErrorKind::kUsage, "--against: the report '" + options.name +
                                         "' shows no comparison; use --template reverification"};
+  // What cannot be compared must be known before an older report goes.
+  if (!against.empty())
+    if (const auto readable = ReadEarlierResults(against); !readable) return readable.error();
   layout.scope.earlier = against;
   return layout.scope;
 }
@@ -120,8 +124,11 @@ Result<bool> ReportIsKept(const fs::path& results, const ReportChoices& choices,
 
 Result<int> ReportStep(const fs::path& results, const ReportChoices& choices, Console& console,
                        Earlier earlier) {
-  TELESTRAIN_RETURN_IF_ERROR(RequireConsistent(results, Step::kReport));
   std::error_code code;
+  if (!choices.against.empty() && fs::equivalent(choices.against, results, code))
+    return BadInput(choices.against.string() +
+                    ": is the results folder itself; name an earlier one with --against");
+  TELESTRAIN_RETURN_IF_ERROR(RequireConsistent(results, Step::kReport));
   if (!fs::exists(results / "calibration.json", code))
     return BadInput((results / "calibration.json").string() +
                     ": does not exist; run 'telestrain calibrate' first");
