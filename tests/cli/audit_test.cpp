@@ -19,9 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void WriteAll(const fs::path& path, const std::string& bytes) {
-  std::ofstream(path, std::ios::binary) << bytes;
-}
+void WriteAll(const fs::path& to, const std::string& text) { std::ofstream(to) << text; }
 
 std::vector<std::string> LinesOf(const std::string& text) {
   std::vector<std::string> lines;

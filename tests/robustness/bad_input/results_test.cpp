@@ -98,7 +98,7 @@ TEST_F(DamagedResults, RecordOfTheCalibration) {
 TEST_F(DamagedResults, SceneOfInputsRulerAndStrain) {
   const auto scene = [] { return ErrorOf(viz::SceneFromResults(Results())); };
   for (const std::string file : {"inputs.json", "ruler.json", "strain.json"})
-    DamageJson(file, scene, 30);
+    DamageJson(file, scene, 12);
   const std::string surface = Folder().Bytes("pipe_001.vtp");
   EXPECT_GT(Refusals("pipe_001.vtp", Truncations(surface, 15), scene), 10);
   EXPECT_GT(Refusals("pipe_001.vtp", Flips(surface, 25), scene), 0);
@@ -132,7 +132,7 @@ TEST_F(DamagedResults, AuditTrail) {
 
 // The verbs whole: few cases in the short form, since each may draw and write a report.
 TEST_F(DamagedResults, EveryVerbThatReadsThem) {
-  const int sample = IsLongForm() ? 400 : 2;
+  const int sample = IsLongForm() ? 400 : 1;
   const ScratchFolder scratch("telestrain_bad_verbs_");
   const std::string out = (scratch.path() / "out").string();
   const std::vector<std::pair<std::string, DamagedFolder::Reader>> cases{
