@@ -91,10 +91,8 @@ Result<AuditTrail> AuditTrail::Open(const fs::path& file, const fs::path& key_fi
   const std::size_t whole_bytes = last_end == std::string::npos ? 0 : last_end + 1;
   if (whole_bytes < text.size()) trail.whole_bytes_ = whole_bytes;
   text.resize(whole_bytes);
-  auto entries = ReadLines(file.string(), text, trail.key_ ? &*trail.key_ : nullptr);
-  if (!entries)
-    return BadInput(entries.error().message + "; bring back the file as it was");
-  trail.entries_ = std::move(*entries);
+  TELESTRAIN_ASSIGN_OR_RETURN(trail.entries_,
+                              ReadLines(file.string(), text, trail.key_ ? &*trail.key_ : nullptr));
   return trail;
 }
 

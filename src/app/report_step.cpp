@@ -46,7 +46,8 @@ Result<int> SayVerdict(const fs::path& results, Console& console) {
 }
 
 // What the layout says of the report's content, with the earlier results that it needs.
-Result<ReportScope> ScopeOf(const ReportOptions& options, const fs::path& against) {
+Result<ReportScope> ScopeOf(const ReportOptions& options, const fs::path& against,
+                            const fs::path& results) {
   TELESTRAIN_ASSIGN_OR_RETURN(LayoutScope layout, ScopeOfLayout(options));
   if (layout.against_earlier && against.empty())
     return Error{ErrorKind::kUsage,
@@ -57,6 +58,10 @@ Result<ReportScope> ScopeOf(const ReportOptions& options, const fs::path& agains
     return Error{ErrorKind::kUsage, "--against: the report '" + options.name +
                                         "' shows no comparison; use --template reverification"};
   // What cannot be compared must be known before an older report goes.
+  std::error_code code;
+  if (fs::equivalent(against, results, code))
+    return BadInput(against.string() +
+                    ": is the results folder itself; name an earlier one with --against");
   if (!against.empty())
     if (const auto readable = ReadEarlierResults(against); !readable) return readable.error();
   layout.scope.earlier = against;
@@ -124,11 +129,8 @@ Result<bool> ReportIsKept(const fs::path& results, const ReportChoices& choices,
 
 Result<int> ReportStep(const fs::path& results, const ReportChoices& choices, Console& console,
                        Earlier earlier) {
-  std::error_code code;
-  if (!choices.against.empty() && fs::equivalent(choices.against, results, code))
-    return BadInput(choices.against.string() +
-                    ": is the results folder itself; name an earlier one with --against");
   TELESTRAIN_RETURN_IF_ERROR(RequireConsistent(results, Step::kReport));
+  std::error_code code;
   if (!fs::exists(results / "calibration.json", code))
     return BadInput((results / "calibration.json").string() +
                     ": does not exist; run 'telestrain calibrate' first");
@@ -144,7 +146,7 @@ Result<int> ReportStep(const fs::path& results, const ReportChoices& choices, Co
                               [&](const std::string& text) { untranslated.insert(text); },
                               [&](const std::string& note) { console.Note("  " + note); }};
   // A wrong layout must be known before an older report goes.
-  TELESTRAIN_ASSIGN_OR_RETURN(const ReportScope scope, ScopeOf(options, choices.against));
+  TELESTRAIN_ASSIGN_OR_RETURN(const ReportScope scope, ScopeOf(options, choices.against, results));
   for (const std::string& change : ChangesSinceRecorded(results)) console.Warn(change);
   TELESTRAIN_RETURN_IF_ERROR(RemoveOutputsFrom(results, Step::kReport));
   TELESTRAIN_RETURN_IF_ERROR(MakeResults(results, scope));

@@ -52,8 +52,10 @@ std::string Refusal(const std::string& bytes) {
   const auto contents = ReadPdfContents("r.pdf", bytes);
   const std::string prefix = "r.pdf: is no undamaged PDF report: ";
   if (contents.ok()) return "read";
+  const std::string remedy = "; copy it again from where it was made";
   const std::string& message = contents.error().message;
-  return message.starts_with(prefix) ? message.substr(prefix.size()) : message;
+  if (!message.starts_with(prefix) || !message.ends_with(remedy)) return message;
+  return message.substr(prefix.size(), message.size() - prefix.size() - remedy.size());
 }
 std::string Refusal(const std::function<void(QPDF&)>& change) {
   return Refusal(EditedPdf(Report(), change));

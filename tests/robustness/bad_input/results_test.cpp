@@ -1,11 +1,11 @@
 // A results folder whose files are damaged: every reader takes them or says which to make again.
 #include <gtest/gtest.h>
 
+#include "app/step_record.h"
 #include "base/json_file.h"
 #include "calibration/calibration_file.h"
 #include "calibration/calibration_record.h"
 #include "integration/small_run.h"
-#include "report/audit/audit_trail.h"
 #include "robustness/bad_input/damaged_folder.h"
 #include "robustness/bad_input/verb_run.h"
 #include "session/made_from.h"
@@ -125,8 +125,10 @@ TEST_F(DamagedResults, WhatWasMadeFromWhat) {
 }
 
 TEST_F(DamagedResults, AuditTrail) {
-  const fs::path trail = Results() / "audit.jsonl";
-  const auto open = [&] { return ErrorOf(AuditTrail::Open(trail)); };
+  const auto open = []() -> std::optional<Error> {
+    const Status whole = CheckTrail(Results());
+    return whole ? std::nullopt : std::optional(whole.error());
+  };
   EXPECT_GT(Refusals("audit.jsonl", Flips(Folder().Bytes("audit.jsonl"), 60), open), 50);
 }
 
