@@ -134,7 +134,8 @@ std::vector<CalibrationChange> ChangesOfCalibrations(const Json& before, const J
   const Eigen::Matrix3d turn = TurnOf(pairs);
   const std::vector<Eigen::Vector2d> shifts_px = ShiftsOf_px(pairs, turn);
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const auto& [then, now] = pairs[i];
+    const View& then = pairs[i].before;
+    const View& now = pairs[i].after;
     const auto add = [&](const char* pattern, const char* unit, double value) {
       changes.push_back({Phrase(pattern, {{"view", now.name}}), unit, value, {}});
     };

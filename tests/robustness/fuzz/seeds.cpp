@@ -106,7 +106,7 @@ void WriteImages(const Seeds& seeds) {
 }  // namespace
 
 std::string FileText(const std::filesystem::path& path) {
-  auto text = ReadFile(path);
+  auto text = ReadFile(path, kMostReportBytes);
   if (!text) throw std::runtime_error(text.error().message);
   return *std::move(text);
 }
