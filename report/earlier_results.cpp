@@ -21,8 +21,8 @@ constexpr std::size_t kMostAttachedJsonBytes = 32 * kMebibyte;
 
 Result<Json> ParseAttachment(const std::string& pdf, const std::string& name,
                              const std::string& text, const std::string& schema) {
-  Json json = IsJsonDeeper(text) ? Json() : Json::parse(text, nullptr, false);
-  if (json.is_discarded() || TextAt(json, "/schema") != schema)
+  auto json = ParseJson(text);
+  if (!json || TextAt(*json, "/schema") != schema)
     return BadInput(pdf + ": its attachment " + name + " is no " + schema + kRemedy);
   return json;
 }

@@ -31,8 +31,8 @@ TrailHead HeadOf(const std::string& trail) {
   for (std::size_t at = 0; at < trail.size();) {
     const std::size_t end = std::min(trail.find('\n', at), trail.size());
     const std::string text = trail.substr(at, end - at);
-    const Json line = IsJsonDeeper(text) ? Json() : Json::parse(text, nullptr, false);
-    const std::string hash = TextAt(line, "/hash");
+    const auto line = ParseJson(text);
+    const std::string hash = line ? TextAt(*line, "/hash") : "";
     if (!hash.empty()) head = {hash, head.entries + 1};
     at = end + 1;
   }

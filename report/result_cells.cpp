@@ -1,5 +1,6 @@
 #include "report/result_cells.h"
 
+#include <cmath>
 #include <limits>
 
 #include "base/check.h"
@@ -11,6 +12,11 @@ namespace telestrain {
 namespace {
 
 Json NumberOrNull(std::optional<double> value) { return value ? Json(*value) : Json(nullptr); }
+
+// An uncertainty that was computed from absurd numbers may be none.
+bool IsPrintable(const std::optional<double>& uncertainty) {
+  return uncertainty && std::isfinite(*uncertainty) && *uncertainty > 0;
+}
 
 std::string PrintedLimit(const Quantity& quantity) {
   if (!quantity.limit) return kNoValue;
@@ -43,7 +49,7 @@ Json ExactCell(std::optional<double> value) {
 Json CountCell(std::optional<double> value) { return FixedCell(value, 0); }
 
 Json UncertainCell(double value, std::optional<double> expanded_uncertainty, const Json& fallback) {
-  if (!expanded_uncertainty || *expanded_uncertainty <= 0) return fallback;
+  if (!IsPrintable(expanded_uncertainty)) return fallback;
   const PrintedResult printed = PrintWithUncertainty(value, *expanded_uncertainty);
   return {{"value", value},
           {"expanded_uncertainty", *expanded_uncertainty},
@@ -52,7 +58,7 @@ Json UncertainCell(double value, std::optional<double> expanded_uncertainty, con
 
 ResultCellPair ResultCells(std::optional<double> value, std::optional<double> expanded_uncertainty,
                            int decimals) {
-  if (!value || !expanded_uncertainty || *expanded_uncertainty <= 0)
+  if (!value || !IsPrintable(expanded_uncertainty))
     return {FixedCell(value, decimals), FixedCell({}, 0)};
   const PrintedResult printed = PrintWithUncertainty(*value, *expanded_uncertainty);
   return {{{"value", *value}, {"printed", printed.value}},

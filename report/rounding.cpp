@@ -26,7 +26,9 @@ int DecimalExponent(double value) {
 double RoundToDecimals(double value, int decimals) {
   if (std::abs(decimals) > kMostPlaces) return value;
   const double scale = std::pow(10.0, std::abs(decimals));
-  return decimals >= 0 ? std::round(value * scale) / scale : std::round(value / scale) * scale;
+  const double rounded =
+      decimals >= 0 ? std::round(value * scale) / scale : std::round(value / scale) * scale;
+  return std::isfinite(rounded) ? rounded : value;
 }
 
 // The place of the last of `digits` significant digits. Rounding up may add a digit

@@ -115,9 +115,8 @@ std::vector<std::string> TemplateFolder::Names(const std::string& folder) const 
 }
 
 Result<Json> ParseTemplate(const TemplateFile& file) {
-  if (IsJsonDeeper(file.text))
-    return BadInput(file.where + ": is nested deeper than " + std::to_string(kDeepestJson) +
-                    " brackets; write it flatter");
+  if (const auto fault = JsonTextFault(file.text))
+    return BadInput(file.where + ": " + *fault + "; mend the file");
   try {
     RepeatedKey repeated;
     Json json = Json::parse(file.text, [&](int, Json::parse_event_t event, const Json& parsed) {

@@ -56,7 +56,7 @@ std::string AuditLine(const AuditEntry& entry, const std::string& entry_text) {
 }
 
 Result<AuditEntry> ParseAuditLine(const std::string& where, const std::string& line) {
-  if (IsJsonDeeper(line, kDeepest)) return BadInput(where + "is nested too deep for an entry");
+  if (const auto fault = JsonTextFault(line, kDeepest)) return BadInput(where + *fault);
   AuditEntry entry;
   std::string entry_text;
   try {

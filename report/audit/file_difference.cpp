@@ -58,10 +58,9 @@ bool IsText(const std::string& bytes) { return bytes.find('\0') == std::string::
 std::string FirstDifference(const std::string& name, const std::string& found,
                             const std::string& again) {
   if (found == again) return "";
-  const auto json = [](const std::string& text) { return Json::parse(text, nullptr, false); };
-  if (name.ends_with(".json") && !IsJsonDeeper(found) && !IsJsonDeeper(again)) {
-    const Json a = json(found), b = json(again);
-    if (!a.is_discarded() && !b.is_discarded()) return DifferenceOfJson(a, b);
+  if (name.ends_with(".json")) {
+    const auto a = ParseJson(found), b = ParseJson(again);
+    if (a && b) return DifferenceOfJson(*a, *b);
   }
   const auto apart = std::mismatch(found.begin(), found.end(), again.begin(), again.end()).first;
   const auto at = static_cast<std::size_t>(apart - found.begin());

@@ -1,12 +1,15 @@
 #include "base/json_file.h"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <system_error>
 
 #include "base/files.h"
+#include "base/numbers.h"
 #include "base/utf8.h"
 
 namespace telestrain {
+namespace {
 
 bool IsJsonDeeper(std::string_view text, int deepest) {
   int depth = 0;
@@ -23,28 +26,55 @@ bool IsJsonDeeper(std::string_view text, int deepest) {
   return false;
 }
 
+// The first number beyond the limit.
+const nlohmann::ordered_json* TooLargeIn(const nlohmann::ordered_json& json) {
+  if (json.is_number_float() && std::abs(json.get<double>()) > kLargestJsonNumber) return &json;
+  if (!json.is_structured()) return nullptr;
+  for (const auto& child : json)
+    if (const auto* found = TooLargeIn(child)) return found;
+  return nullptr;
+}
+
+}  // namespace
+
+std::optional<std::string> JsonTextFault(std::string_view text, int deepest) {
+  const std::size_t zero = text.find('\0');
+  if (zero != std::string_view::npos)
+    return "is not valid JSON: the byte at offset " + std::to_string(zero) + " is zero";
+  if (IsJsonDeeper(text, deepest))
+    return "is nested deeper than " + std::to_string(deepest) + " brackets";
+  return {};
+}
+
+Result<nlohmann::ordered_json> ParseJson(std::string_view text) {
+  if (const auto fault = JsonTextFault(text)) return BadInput(*fault);
+  try {
+    auto json = nlohmann::ordered_json::parse(text);
+    if (const auto* number = TooLargeIn(json))
+      return BadInput("the number " + number->dump() + " is larger than any that is measured, " +
+                      FormatShortest(kLargestJsonNumber));
+    return json;
+  } catch (const nlohmann::json::exception& e) {
+    return BadInput(std::string("is not valid JSON: ") + e.what());
+  }
+}
+
 Result<nlohmann::ordered_json> ReadJson(const std::filesystem::path& path,
                                         const std::string& schema, const std::string& maker) {
   std::error_code code;
   if (!std::filesystem::exists(path, code))
     return BadInput(path.string() + ": does not exist; run '" + maker + "' first");
   TELESTRAIN_ASSIGN_OR_RETURN(const std::string text, ReadFile(path, kMostJsonBytes));
-  if (IsJsonDeeper(text))
-    return BadInput(path.string() + ": is nested deeper than " + std::to_string(kDeepestJson) +
-                    " brackets; make the file again with '" + maker + "'");
-  try {
-    auto json = nlohmann::ordered_json::parse(text);
-    const bool has_schema =
-        json.is_object() && json.contains("schema") && json["schema"].is_string();
-    const std::string found = has_schema ? json["schema"].get<std::string>() : "none";
-    if (found != schema)
-      return BadInput(path.string() + ": schema is '" + PrintableText(found) + "', wanted '" +
-                      schema + "'; make the file again with '" + maker + "'");
-    return json;
-  } catch (const nlohmann::json::exception& e) {
-    return BadInput(path.string() + ": is not valid JSON: " + e.what() +
-                    "; make the file again with '" + maker + "'");
-  }
+  auto json = ParseJson(text);
+  const std::string remedy = "; make the file again with '" + maker + "'";
+  if (!json) return BadInput(path.string() + ": " + json.error().message + remedy);
+  const bool has_schema =
+      json->is_object() && json->contains("schema") && (*json)["schema"].is_string();
+  const std::string found = has_schema ? (*json)["schema"].get<std::string>() : "none";
+  if (found != schema)
+    return BadInput(path.string() + ": schema is '" + PrintableText(found) + "', wanted '" +
+                    schema + "'" + remedy);
+  return json;
 }
 
 std::string JsonText(const nlohmann::ordered_json& json) { return json.dump(2) + "\n"; }

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -13,9 +14,17 @@ namespace telestrain {
 // level and would run out of stack.
 constexpr int kDeepestJson = 200;
 
-// Whether brackets outside of strings are nested deeper, in time that grows with the text's length
-// and no stack. To be asked before parsing what comes from outside.
-bool IsJsonDeeper(std::string_view text, int deepest = kDeepestJson);
+// Nothing that is measured or counted is larger, and products of a few such numbers are finite.
+constexpr double kLargestJsonNumber = 1e100;
+
+// What makes a text unfit for the parser: brackets outside of strings that are nested deeper, or a
+// byte of value zero, which the parser takes for the end. Takes time that grows with the text's
+// length and no stack. To be asked before parsing what comes from outside.
+std::optional<std::string> JsonTextFault(std::string_view text, int deepest = kDeepestJson);
+
+// Parses JSON from outside. Fails (kBadInput) without a name of the file: "is not valid JSON: ...",
+// "is nested deeper than ...", "... is larger than any number that is measured".
+Result<nlohmann::ordered_json> ParseJson(std::string_view text);
 
 // Parses a JSON file of ours and checks its `schema` key. Fails (kBadInput) with path, offset and
 // what to do; `maker` is the command that makes the file ("telestrain calibrate").

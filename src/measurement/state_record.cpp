@@ -175,9 +175,10 @@ std::string StateRecordLine(const StateRecord& record) {
 }
 
 Result<StateRecord> ReadStateRecord(const std::string& line) {
-  if (IsJsonDeeper(line)) return BadInput("no whole record: nested too deep");
   try {
-    const Json json = Json::parse(line);
+    const auto parsed = ParseJson(line);
+    if (!parsed) return BadInput("no whole record: it " + parsed.error().message);
+    const Json& json = *parsed;
     if (json.at("schema") != kStateSchema)
       return BadInput("a record of another version; it is measured again");
     StateRecord record;

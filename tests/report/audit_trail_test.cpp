@@ -236,7 +236,7 @@ TEST_F(AuditTrailTest, TextThatJsonCannotHoldIsMarked) {
 TEST_F(AuditTrailTest, DeepNestingIsRefusedBeforeItCostsTheStack) {
   const std::string deep(2000000, '[');
   EXPECT_EQ(ReadAuditTrail("t", deep + "\n").error().message,
-            "t: line 1 is nested too deep for an entry");
+            "t: line 1 is nested deeper than 64 brackets");
 }
 
 }  // namespace

@@ -96,8 +96,9 @@ int DepthOf(const nlohmann::json& json) {
 
 void TryJsonDepth(const std::string& text) {
   constexpr int kDeepest = 12;
-  const bool is_deeper = IsJsonDeeper(text, kDeepest);
-  if (IsJsonDeeper(text)) return;
+  const bool is_deeper = JsonTextFault(text, kDeepest).has_value();
+  Succeeds(ParseJson(text));
+  if (JsonTextFault(text)) return;
   const auto json = nlohmann::json::parse(text, nullptr, false);
   if (json.is_discarded()) return;
   Require(is_deeper == (DepthOf(json) > kDeepest), "the depth of JSON is counted right");
@@ -113,7 +114,7 @@ void TryTime(const std::string& text) {
 // The first line: the values as JSON.
 void TryFilling(const std::string& text) {
   const std::size_t end = std::min(text.find('\n'), text.size());
-  if (IsJsonDeeper(text.substr(0, end))) return;
+  if (JsonTextFault(text.substr(0, end))) return;
   const Json values = Json::parse(text.substr(0, end), nullptr, false);
   const std::string pattern = end < text.size() ? text.substr(end + 1) : "";
   const auto fault = TextFault(pattern);

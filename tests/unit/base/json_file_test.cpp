@@ -53,9 +53,20 @@ TEST(JsonFileTest, DeepBracketsAreRefusedBeforeTheyCostTheStack) {
   ASSERT_TRUE(
       WriteFileAtomically(folder.path() / "f.json", "{\"schema\": " + open + close + "}").ok());
   EXPECT_NE(MessageOf(folder.path() / "f.json").find("nested deeper than 200"), std::string::npos);
-  EXPECT_FALSE(IsJsonDeeper("{\"a\\\"[[[[\": [\"[[[[\"]}", 2));
-  EXPECT_TRUE(IsJsonDeeper("{\"a\": [[]]}", 2));
-  EXPECT_FALSE(IsJsonDeeper("[[], [[]], []]", 3));
+  EXPECT_FALSE(JsonTextFault("{\"a\\\"[[[[\": [\"[[[[\"]}", 2));
+  EXPECT_EQ(JsonTextFault("{\"a\": [[]]}", 2), "is nested deeper than 2 brackets");
+  EXPECT_FALSE(JsonTextFault("[[], [[]], []]", 3));
+}
+
+TEST(JsonFileTest, WhatStandsBehindAZeroByteIsNotOverlooked) {
+  EXPECT_EQ(ParseJson(std::string_view("[1]\0[2]", 7)).error().message,
+            "is not valid JSON: the byte at offset 3 is zero");
+}
+
+TEST(JsonFileTest, NumbersOfWhichProductsWouldOverflowAreRefused) {
+  EXPECT_EQ(ParseJson("{\"a\": [1e100, -2e100]}").error().message,
+            "the number -2e+100 is larger than any that is measured, 1e+100");
+  EXPECT_TRUE(ParseJson("[1e100, 1e-300, 18446744073709551615]").ok());
 }
 
 TEST(JsonFileTest, APathThatCannotBeAskedForIsBadInput) {
