@@ -115,8 +115,8 @@ std::vector<std::string> TemplateFolder::Names(const std::string& folder) const 
 }
 
 Result<Json> ParseTemplate(const TemplateFile& file) {
-  if (const auto fault = JsonTextFault(file.text))
-    return BadInput(file.where + ": " + *fault + "; mend the file");
+  if (const auto text = CheckJsonText(file.text); !text)
+    return BadInput(file.where + ": " + text.error().message + "; mend the file");
   try {
     RepeatedKey repeated;
     Json json = Json::parse(file.text, [&](int, Json::parse_event_t event, const Json& parsed) {

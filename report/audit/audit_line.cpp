@@ -56,7 +56,8 @@ std::string AuditLine(const AuditEntry& entry, const std::string& entry_text) {
 }
 
 Result<AuditEntry> ParseAuditLine(const std::string& where, const std::string& line) {
-  if (const auto fault = JsonTextFault(line, kDeepest)) return BadInput(where + *fault);
+  if (const auto text = CheckJsonText(line, kDeepest); !text)
+    return BadInput(where + text.error().message);
   AuditEntry entry;
   std::string entry_text;
   try {

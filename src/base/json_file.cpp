@@ -37,17 +37,17 @@ const nlohmann::ordered_json* TooLargeIn(const nlohmann::ordered_json& json) {
 
 }  // namespace
 
-std::optional<std::string> JsonTextFault(std::string_view text, int deepest) {
+Status CheckJsonText(std::string_view text, int deepest) {
   const std::size_t zero = text.find('\0');
   if (zero != std::string_view::npos)
-    return "is not valid JSON: the byte at offset " + std::to_string(zero) + " is zero";
+    return BadInput("is not valid JSON: the byte at offset " + std::to_string(zero) + " is zero");
   if (IsJsonDeeper(text, deepest))
-    return "is nested deeper than " + std::to_string(deepest) + " brackets";
+    return BadInput("is nested deeper than " + std::to_string(deepest) + " brackets");
   return {};
 }
 
 Result<nlohmann::ordered_json> ParseJson(std::string_view text) {
-  if (const auto fault = JsonTextFault(text)) return BadInput(*fault);
+  TELESTRAIN_RETURN_IF_ERROR(CheckJsonText(text));
   try {
     auto json = nlohmann::ordered_json::parse(text);
     if (const auto* number = TooLargeIn(json))
@@ -66,14 +66,15 @@ Result<nlohmann::ordered_json> ReadJson(const std::filesystem::path& path,
     return BadInput(path.string() + ": does not exist; run '" + maker + "' first");
   TELESTRAIN_ASSIGN_OR_RETURN(const std::string text, ReadFile(path, kMostJsonBytes));
   auto json = ParseJson(text);
-  const std::string remedy = "; make the file again with '" + maker + "'";
-  if (!json) return BadInput(path.string() + ": " + json.error().message + remedy);
+  if (!json)
+    return BadInput(path.string() + ": " + json.error().message + "; make the file again with '" +
+                    maker + "'");
   const bool has_schema =
       json->is_object() && json->contains("schema") && (*json)["schema"].is_string();
   const std::string found = has_schema ? (*json)["schema"].get<std::string>() : "none";
   if (found != schema)
     return BadInput(path.string() + ": schema is '" + PrintableText(found) + "', wanted '" +
-                    schema + "'" + remedy);
+                    schema + "'; make the file again with '" + maker + "'");
   return json;
 }
 

@@ -2,7 +2,6 @@
 
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
-#include <optional>
 #include <string>
 #include <string_view>
 
@@ -17,10 +16,11 @@ constexpr int kDeepestJson = 200;
 // Nothing that is measured or counted is larger, and products of a few such numbers are finite.
 constexpr double kLargestJsonNumber = 1e100;
 
-// What makes a text unfit for the parser: brackets outside of strings that are nested deeper, or a
-// byte of value zero, which the parser takes for the end. Takes time that grows with the text's
-// length and no stack. To be asked before parsing what comes from outside.
-std::optional<std::string> JsonTextFault(std::string_view text, int deepest = kDeepestJson);
+// Fails (kBadInput, without a name of the file) where a text is unfit for the parser: brackets
+// outside of strings are nested deeper, or a byte is zero, which the parser takes for the end.
+// Takes time that grows with the text's length and no stack. To be asked before parsing what comes
+// from outside.
+Status CheckJsonText(std::string_view text, int deepest = kDeepestJson);
 
 // Parses JSON from outside. Fails (kBadInput) without a name of the file: "is not valid JSON: ...",
 // "is nested deeper than ...", "... is larger than any number that is measured".

@@ -24,7 +24,7 @@ std::string SealedTrail(const std::string& bodies) {
   std::istringstream lines(bodies);
   long long seq = 0;
   for (std::string line; std::getline(lines, line);) {
-    if (JsonTextFault(line, 32)) continue;
+    if (!CheckJsonText(line, 32)) continue;
     const Json json = Json::parse(line, nullptr, false);
     if (!json.is_object()) continue;
     AuditEntry entry;

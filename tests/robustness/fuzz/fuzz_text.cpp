@@ -96,9 +96,9 @@ int DepthOf(const nlohmann::json& json) {
 
 void TryJsonDepth(const std::string& text) {
   constexpr int kDeepest = 12;
-  const bool is_deeper = JsonTextFault(text, kDeepest).has_value();
+  const bool is_deeper = !CheckJsonText(text, kDeepest).ok();
   Succeeds(ParseJson(text));
-  if (JsonTextFault(text)) return;
+  if (!CheckJsonText(text).ok()) return;
   const auto json = nlohmann::json::parse(text, nullptr, false);
   if (json.is_discarded()) return;
   Require(is_deeper == (DepthOf(json) > kDeepest), "the depth of JSON is counted right");
@@ -114,7 +114,7 @@ void TryTime(const std::string& text) {
 // The first line: the values as JSON.
 void TryFilling(const std::string& text) {
   const std::size_t end = std::min(text.find('\n'), text.size());
-  if (JsonTextFault(text.substr(0, end))) return;
+  if (!CheckJsonText(text.substr(0, end)).ok()) return;
   const Json values = Json::parse(text.substr(0, end), nullptr, false);
   const std::string pattern = end < text.size() ? text.substr(end + 1) : "";
   const auto fault = TextFault(pattern);

@@ -53,9 +53,9 @@ TEST(JsonFileTest, DeepBracketsAreRefusedBeforeTheyCostTheStack) {
   ASSERT_TRUE(
       WriteFileAtomically(folder.path() / "f.json", "{\"schema\": " + open + close + "}").ok());
   EXPECT_NE(MessageOf(folder.path() / "f.json").find("nested deeper than 200"), std::string::npos);
-  EXPECT_FALSE(JsonTextFault("{\"a\\\"[[[[\": [\"[[[[\"]}", 2));
-  EXPECT_EQ(JsonTextFault("{\"a\": [[]]}", 2), "is nested deeper than 2 brackets");
-  EXPECT_FALSE(JsonTextFault("[[], [[]], []]", 3));
+  EXPECT_TRUE(CheckJsonText("{\"a\\\"[[[[\": [\"[[[[\"]}", 2).ok());
+  EXPECT_EQ(CheckJsonText("{\"a\": [[]]}", 2).error().message, "is nested deeper than 2 brackets");
+  EXPECT_TRUE(CheckJsonText("[[], [[]], []]", 3).ok());
 }
 
 TEST(JsonFileTest, WhatStandsBehindAZeroByteIsNotOverlooked) {

@@ -17,7 +17,7 @@ StateRecord Example() {
   strain.axial_strain = 1.0 / 3 * 1e-4;
   strain.standard_uncertainty = 5e-324;
   strain.local_axial_strain = {1e-4 / 7, std::numeric_limits<double>::quiet_NaN()};
-  strain.local_hoop_strain = {-0.0, 1.7976931348623157e308};
+  strain.local_hoop_strain = {-0.0, 0.1 * 1e100};
   strain.local_sigma = 0.1 + 0.2;
   strain.translation_mm = {1.1, -2.2 / 3, 3.3};
   strain.rotation_rad = {1e-9 / 3, 0, -1};
