@@ -39,9 +39,13 @@ struct ReportScope {
 };
 
 // Reads inputs.json (must be there) and what exists of detection.json, calibration.json,
-// comparison.json, ruler.json and strain.json; writes results.json and dcc.xml. Fails with
-// kBadInput (a file is malformed; `earlier` cannot be read) or kOutputFailed.
-Result<Outcome> MakeResults(const std::filesystem::path& results, const ReportScope& scope = {});
+// comparison.json, ruler.json and strain.json; writes results.json and dcc.xml. Once everything is
+// read and before anything is written, `before_writing` is called. Fails with kBadInput (a file is
+// malformed; `earlier` cannot be read or compared) before that, with what it says, or
+// kOutputFailed.
+Result<Outcome> MakeResults(
+    const std::filesystem::path& results, const ReportScope& scope = {},
+    const std::function<Status()>& before_writing = [] { return Status(); });
 
 // The outcome that a results.json tells of.
 Outcome OutcomeIn(const nlohmann::ordered_json& results);

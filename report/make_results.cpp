@@ -215,7 +215,8 @@ Outcome OutcomeIn(const Json& results) {
   return outcome;
 }
 
-Result<Outcome> MakeResults(const std::filesystem::path& results, const ReportScope& scope) {
+Result<Outcome> MakeResults(const std::filesystem::path& results, const ReportScope& scope,
+                            const std::function<Status()>& before_writing) {
   TELESTRAIN_RETURN_IF_ERROR(CheckScope(scope));
   TELESTRAIN_ASSIGN_OR_RETURN(const Parts parts, ReadParts(results));
   ResultsDraft draft;
@@ -232,8 +233,9 @@ Result<Outcome> MakeResults(const std::filesystem::path& results, const ReportSc
   draft.AddTable(std::move(evidence));
   TELESTRAIN_RETURN_IF_ERROR(AddEarlier(parts, scope, draft.tables.back(), draft));
   const Json json = ResultsJson(std::move(draft), scope, parts.inputs, outcome.verdict);
-  TELESTRAIN_RETURN_IF_ERROR(WriteJson(results / "results.json", json));
   TELESTRAIN_ASSIGN_OR_RETURN(const std::string dcc, MakeDcc(json, parts.calibration));
+  TELESTRAIN_RETURN_IF_ERROR(before_writing());
+  TELESTRAIN_RETURN_IF_ERROR(WriteJson(results / "results.json", json));
   TELESTRAIN_RETURN_IF_ERROR(WriteFileAtomically(results / "dcc.xml", dcc));
   return outcome;
 }

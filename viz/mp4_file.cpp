@@ -1,15 +1,16 @@
+#include <fcntl.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
-#include <cstring>
 #include <opencv2/core.hpp>
 #include <opencv2/core/utils/logger.hpp>
 #include <opencv2/videoio.hpp>
 
 #include "base/check.h"
+#include "base/descriptor.h"
 #include "base/files.h"
 #include "base/late_library.h"
 #include "base/signals.h"
@@ -36,7 +37,7 @@ class LateWriter {
   LateWriter(const LateWriter&) = delete;
   LateWriter& operator=(const LateWriter&) = delete;
 
-  const std::string& Failure() const { return library_.Failure(); }
+  std::string Failure() const { return library_.Failure(); }
   bool Open(const std::string& file, int codec, double fps, const cv::Size& size) {
     if (!construct_ || !destroy_ || !is_opened_ || !write_) return false;
     construct_(place_, file, cv::CAP_FFMPEG, codec, fps, size, true);
@@ -133,20 +134,16 @@ class Mp4File : public VideoFile {
   }
 
  private:
-  // A file of this film alone, whatever else writes to the same name. Its path is absolute: FFmpeg
-  // takes what stands before a colon for a protocol.
+  // A file of this film alone, whatever else writes to the same name. Its path is absolute:
+  // FFmpeg takes what stands before a colon for a protocol.
   Status MakePart() {
-    constexpr const char* kEnding = ".mp4";
+    static std::atomic<int> films = 0;
+    const NoSignalNow whole;  // what is to be done at one reads the name
     std::error_code code;
-    const fs::path whole = fs::absolute(path_, code);
-    std::string name = whole.string() + ".XXXXXX" + kEnding;
-    const int file = code ? -1 : mkstemps(name.data(), static_cast<int>(std::strlen(kEnding)));
-    if (file < 0)
-      return OutputFailed(path_.string() + ": cannot be opened for writing: " +
-                          (code ? code.message() : std::strerror(errno)));
-    close(file);
-    part_ = name;
-    return {};
+    part_ = TemporaryFor(fs::absolute(path_, code), "." + std::to_string(films++) + ".mp4");
+    const Descriptor file{
+        ::open(part_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | O_EXCL | O_NOFOLLOW, 0644)};
+    return file.value >= 0 ? Status() : CannotWrite(path_, errno);
   }
 
   fs::path path_, part_;

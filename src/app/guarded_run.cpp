@@ -8,7 +8,7 @@
 #include <new>
 #include <string>
 
-#include "base/signals.h"
+#include "base/utf8.h"
 
 namespace telestrain {
 namespace {
@@ -34,7 +34,7 @@ void SayOnStderr(const std::string& line) {
 
 void SayEnded(const LoggedRun& run, int signal) {
   const bool goes_on = run.verb == "run" || run.verb == "measure";
-  const std::string place = run.results.empty() ? "" : " in " + run.results.string();
+  const std::string place = run.results.empty() ? "" : " in " + PrintableText(run.results.string());
   SayOnStderr(
       "telestrain " + run.verb + ": ended by " + SignalName(signal) + "; " +
       (goes_on ? "what is finished is kept" + place + ", the same command goes on from there"
@@ -58,15 +58,14 @@ void EndForLackOfMemory() {
 
 }  // namespace
 
-Result<int> RunGuarded(Command& command, const InstrumentLog& log, const LoggedRun& run,
-                       Console& console) {
-  const AtSignal end([&](int signal) {
-    SayEnded(run, signal);
-    LoggedRun ended = run;
-    ended.exit_code = 128 + signal;
-    if (const Status logged = LogRun(log, ended); !logged) SayOnStderr(logged.error().message);
-    return AfterSignal::kEnd;
-  });
+AfterSignal EndLogged(const InstrumentLog& log, LoggedRun run, int signal) {
+  SayEnded(run, signal);
+  run.exit_code = 128 + signal;
+  if (const Status logged = LogRun(log, run); !logged) SayOnStderr(logged.error().message);
+  return AfterSignal::kEnd;
+}
+
+Result<int> RunGuarded(Command& command, Console& console) {
   try {
     return command.Run(console);
   } catch (const std::bad_alloc&) {

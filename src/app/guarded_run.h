@@ -2,13 +2,16 @@
 
 #include "app/command.h"
 #include "app/instrument_log.h"
+#include "base/signals.h"
 
 namespace telestrain {
 
-// Runs the verb. A signal that ends it is said on stderr, with what is kept and how to go on, and
-// logged as `run` with 128 + its number. Too little memory fails with kOutputFailed.
-Result<int> RunGuarded(Command& command, const InstrumentLog& log, const LoggedRun& run,
-                       Console& console);
+// Runs the verb. Too little memory fails with kOutputFailed.
+Result<int> RunGuarded(Command& command, Console& console);
+
+// At a signal that ends the program: says so on stderr, with what is kept and how to go on, and
+// logs `run` with 128 + its number.
+AfterSignal EndLogged(const InstrumentLog& log, LoggedRun run, int signal);
 
 // To be called once, first of all in main: where no exception can be caught (in a thread of a
 // library), too little memory ends the process with the same message and exit code.

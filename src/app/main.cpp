@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <exception>
 #include <iostream>
+#include <optional>
 
 #include "app/exit_codes.h"
 #include "app/guarded_run.h"
@@ -13,6 +14,7 @@
 #include "base/files.h"
 #include "base/numbers.h"
 #include "base/signals.h"
+#include "base/utf8.h"
 
 namespace telestrain {
 namespace {
@@ -39,12 +41,15 @@ int RunCommand(Command& command, const CLI::App& verb, const InstrumentLog& log,
     return Report(command.Name(), open.error(), console);
   run.verb = command.Name();
   run.results = ResultsOf(verb);
-  const Result<int> result = RunGuarded(command, log, run, console);
+  std::optional<AtSignal> at_end(std::in_place,
+                                 [&](int signal) { return EndLogged(log, run, signal); });
+  const Result<int> result = RunGuarded(command, console);
   run.exit_code = result ? *result : Report(command.Name(), result.error(), console);
   // A reader that has gone away wants no more; what was made is made.
   if (const int failed = console.OutError(); failed != 0 && failed != EPIPE)
     run.exit_code = Report(command.Name(), CannotWrite("standard output", failed), console);
   const NoSignalNow until_logged;
+  at_end.reset();
   if (const Status logged = LogRun(log, run); !logged)
     return Report(command.Name(), logged.error(), console);
   return run.exit_code;
@@ -55,7 +60,7 @@ std::string UnknownVerb(int argc, char** argv, const std::vector<std::string>& v
   const std::string word = argc > 1 ? argv[1] : "";
   if (word.empty() || word.front() == '-') return "";
   if (std::find(verbs.begin(), verbs.end(), word) != verbs.end()) return "";
-  return "telestrain: unknown verb '" + word + "'; the nearest verb is '" +
+  return "telestrain: unknown verb '" + PrintableText(word) + "'; the nearest verb is '" +
          NearestWord(word, verbs) + "'\nRun with --help for all verbs.";
 }
 

@@ -14,11 +14,11 @@ std::string Footer() {
   std::string text = "Exit codes:";
   std::size_t line = 0;  // where the last one begins
   for (const ExitCode& exit : kExitCodes) {
-    const std::string item = std::to_string(exit.code) + " " + exit.meaning;
+    const std::string item = exit.code + std::string(" ") + exit.meaning;
     constexpr std::size_t kWidth = 90;
     const bool breaks = text.size() - line + item.size() + 2 > kWidth;
     if (breaks) line = text.size() + 1;
-    text += (breaks ? "\n" : " ") + item + (exit.code == kDefectExit ? "." : ",");
+    text += (breaks ? "\n" : " ") + item + (&exit == &kExitCodes.back() ? "." : ",");
   }
   return text + "\nHelp for one verb: telestrain VERB --help";
 }

@@ -8,7 +8,6 @@
 #include "app/steps.h"
 #include "base/json_file.h"
 #include "base/numbers.h"
-#include "report/earlier_results.h"
 #include "report/template_list.h"
 #include "viz/picture_set.h"
 
@@ -57,13 +56,10 @@ Result<ReportScope> ScopeOf(const ReportOptions& options, const fs::path& agains
   if (!layout.against_earlier && !against.empty())
     return Error{ErrorKind::kUsage, "--against: the report '" + options.name +
                                         "' shows no comparison; use --template reverification"};
-  // What cannot be compared must be known before an older report goes.
   std::error_code code;
   if (fs::equivalent(against, results, code))
     return BadInput(against.string() +
                     ": is the results folder itself; name an earlier one with --against");
-  if (!against.empty())
-    if (const auto readable = ReadEarlierResults(against); !readable) return readable.error();
   layout.scope.earlier = against;
   return layout.scope;
 }
@@ -148,8 +144,9 @@ Result<int> ReportStep(const fs::path& results, const ReportChoices& choices, Co
   // A wrong layout must be known before an older report goes.
   TELESTRAIN_ASSIGN_OR_RETURN(const ReportScope scope, ScopeOf(options, choices.against, results));
   for (const std::string& change : ChangesSinceRecorded(results)) console.Warn(change);
-  TELESTRAIN_RETURN_IF_ERROR(RemoveOutputsFrom(results, Step::kReport));
-  TELESTRAIN_RETURN_IF_ERROR(MakeResults(results, scope));
+  // What cannot be read or compared must be known before an older report goes.
+  TELESTRAIN_RETURN_IF_ERROR(
+      MakeResults(results, scope, [&] { return RemoveOutputsFrom(results, Step::kReport); }));
   TELESTRAIN_RETURN_IF_ERROR(RecordStep(results, ResultsRecord(choices)));
   TELESTRAIN_RETURN_IF_ERROR(WriteReport(results, options));
   TELESTRAIN_RETURN_IF_ERROR(RecordStep(results, ReportRecord(results, choices)));

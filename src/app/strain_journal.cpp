@@ -90,9 +90,10 @@ std::optional<MeasuredState> StrainJournal::Known(std::size_t index, const PipeS
 
 // The files hold what was added so far and no more.
 Status StrainJournal::Settle() {
-  for (std::size_t i = 0; i < count_; ++i) records_ += lines_[i];
+  std::string records;
+  for (std::size_t i = 0; i < count_; ++i) records += lines_[i];
   // The records first: a state that they name must be whole.
-  TELESTRAIN_RETURN_IF_ERROR(WriteIfOther(results_ / kRecords, records_));
+  TELESTRAIN_RETURN_IF_ERROR(WriteIfOther(results_ / kRecords, records));
   TELESTRAIN_RETURN_IF_ERROR(RemoveSurfacesFrom(results_, count_));
   csv_ = StrainCsvHeader() + csv_;
   TELESTRAIN_RETURN_IF_ERROR(WriteIfOther(results_ / kTable, csv_));
@@ -109,6 +110,9 @@ Status StrainJournal::Add(const PipeSequence& sequence, const PipeImage& image,
     ++count_;
     return {};
   }
+  if (count_ == kMostTableRows)
+    return BadInput((results_ / kTable).string() + ": has " + std::to_string(count_) +
+                    " states, the limit; begin a results folder and a session for the others");
   if (!settled_) TELESTRAIN_RETURN_IF_ERROR(Settle());
   const std::string surface = SurfaceVtp(sequence.grid(), state.strain, &sequence.geometry());
   StateRecord record{state.table.image, made_from_, Sha256Hex(surface), state};
@@ -117,9 +121,9 @@ Status StrainJournal::Add(const PipeSequence& sequence, const PipeImage& image,
   if (state.table.temperature_c) record.made_from[kTemperature] = TemperatureText(state.table);
   TELESTRAIN_RETURN_IF_ERROR(WriteFileAtomically(results_ / SurfaceFileName(count_), surface));
   csv_ += StrainCsvLine(state);
-  records_ += StateRecordLine(record);
   TELESTRAIN_RETURN_IF_ERROR(WriteFileAtomically(results_ / kTable, csv_));
-  TELESTRAIN_RETURN_IF_ERROR(WriteFileAtomically(results_ / kRecords, records_));
+  // A record takes thousands of bytes; a part that a kill may leave ends the list when it is read.
+  TELESTRAIN_RETURN_IF_ERROR(AppendToFile(results_ / kRecords, StateRecordLine(record)));
   ++count_;
   return {};
 }

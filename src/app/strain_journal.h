@@ -47,7 +47,7 @@ class StrainJournal {
   std::map<std::string, std::string> made_from_;
   std::vector<StateRecord> known_;
   std::vector<std::string> lines_;  // of the known records
-  std::string csv_, records_;       // what the two tables hold
+  std::string csv_;                 // what the table holds
   std::string reference_sha256_;
   std::size_t count_ = 0;
   bool settled_ = false;

@@ -11,14 +11,15 @@ constexpr std::size_t kMebibyte = std::size_t{1} << 20;
 // session.toml, layouts, texts, keys and certificates: a person wrote them, or as much as one
 // could.
 constexpr std::size_t kMostTextBytes = kMebibyte;
-// Tables of a session: 20,000 states of 200 bytes.
+// Tables of a session: as many rows of 800 bytes as results can tell of.
 constexpr std::size_t kMostTableBytes = 4 * kMebibyte;
-// Tables and lists of results, as residuals.csv: 5000 images of 4 views with 117 corners of 160
-// bytes.
+constexpr std::size_t kMostTableRows = 5000;
+// Tables and lists of results, as residuals.csv: kMostTableRows images of 4 views with 117 corners
+// of 160 bytes.
 constexpr std::size_t kMostResultBytes = 512 * kMebibyte;
-// JSON of results: 5000 states of 20 kB. Parsed, it takes some ten times as much memory.
+// JSON of results: kMostTableRows states of 20 kB. Parsed, it takes some ten times as much memory.
 constexpr std::size_t kMostJsonBytes = 128 * kMebibyte;
-// Images: 100 million pixels (kMostImagePixels) of four bytes.
+// Images: 100 million pixels (kMostPixels of image_file.cpp) of four bytes.
 constexpr std::size_t kMostImageBytes = 400'000'000;
 // Reports, and films and pages that are read back.
 constexpr std::size_t kMostReportBytes = 256 * kMebibyte;

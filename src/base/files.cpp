@@ -1,9 +1,11 @@
 #include "base/files.h"
 
 #include <fcntl.h>
+#include <signal.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <optional>
@@ -11,6 +13,7 @@
 #include <vector>
 
 #include "base/descriptor.h"
+#include "base/numbers.h"
 #include "base/signals.h"
 
 namespace telestrain {
@@ -20,6 +23,21 @@ namespace {
 constexpr const char* kTemporaryMark = ".telestrain-part-";
 
 std::string Reason(int error_number) { return std::strerror(error_number); }
+
+// The number of the process that a temporary file is of, nothing for another name.
+std::optional<int> WriterOf(const std::string& name) {
+  const std::size_t mark = name.rfind(kTemporaryMark);
+  if (mark == std::string::npos || mark == 0) return {};
+  const std::string rest = name.substr(mark + std::string_view(kTemporaryMark).size());
+  const std::size_t digits = std::min(rest.find_first_not_of("0123456789"), rest.size());
+  if (digits == 0 || (digits < rest.size() && rest[digits] != '.')) return {};
+  return ParseInt(rest.substr(0, digits));
+}
+
+// Whether it is another process that lives.
+bool Runs(int process) {
+  return process != ::getpid() && (::kill(process, 0) == 0 || errno == EPERM);
+}
 
 // Returns 0 or errno.
 int WriteAll(int file, std::string_view bytes) {
@@ -112,10 +130,7 @@ Error CannotRemove(const std::filesystem::path& path, const std::string& what, i
 
 Status WriteFileAtomically(const std::filesystem::path& path, std::string_view bytes) {
   const NoSignalNow whole;
-  std::filesystem::path temporary = path;
-  temporary += kTemporaryMark + std::to_string(::getpid());
-  // A killed program of the same number may have left one; a link of that name is not followed.
-  ::unlink(temporary.c_str());
+  const std::filesystem::path temporary = TemporaryFor(path);
   int error_number = WriteNewFile(temporary, bytes, ModeOf(path));
   if (error_number == 0 && std::rename(temporary.c_str(), path.c_str()) != 0) error_number = errno;
   if (error_number == 0) return {};
@@ -129,19 +144,22 @@ Status AppendToFile(const std::filesystem::path& path, std::string_view bytes) {
   return error_number == 0 ? Status{} : Status{CannotWrite(path, error_number)};
 }
 
-bool IsTemporary(const std::string& name) {
-  const std::size_t mark = name.rfind(kTemporaryMark);
-  if (mark == std::string::npos || mark == 0) return false;
-  const std::string number = name.substr(mark + std::string_view(kTemporaryMark).size());
-  return !number.empty() && number.find_first_not_of("0123456789") == std::string::npos;
+std::filesystem::path TemporaryFor(const std::filesystem::path& path, const std::string& ending) {
+  std::filesystem::path temporary = path;
+  temporary += kTemporaryMark + std::to_string(::getpid()) + ending;
+  ::unlink(temporary.c_str());  // a link of that name is not followed
+  return temporary;
 }
+
+bool IsTemporary(const std::string& name) { return WriterOf(name).has_value(); }
 
 Status RemoveTemporaries(const std::filesystem::path& folder) {
   std::error_code code;
   std::vector<std::filesystem::path> left;
   for (std::filesystem::directory_iterator entry(folder, code), end; !code && entry != end;
        entry.increment(code))
-    if (IsTemporary(entry->path().filename().string())) left.push_back(entry->path());
+    if (const auto writer = WriterOf(entry->path().filename().string()); writer && !Runs(*writer))
+      left.push_back(entry->path());
   for (const auto& path : left)
     if (!std::filesystem::remove(path, code) && code)
       return CannotRemove(path, "what a killed program left", code.value());

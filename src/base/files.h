@@ -32,9 +32,12 @@ Error CannotWrite(const std::filesystem::path& path, int error_number);
 // The same of a file that cannot be taken away; `what` it is stands before the words.
 Error CannotRemove(const std::filesystem::path& path, const std::string& what, int error_number);
 
-// Whether WriteFileAtomically gives a file such a name until it is whole.
+// The name of this process's file that becomes `path` when it is whole; `ending`, such as ".mp4",
+// is for those who ask for one. A file that has the name, which a killed program left, is removed.
+std::filesystem::path TemporaryFor(const std::filesystem::path& path,
+                                   const std::string& ending = "");
 bool IsTemporary(const std::string& name);
-// Removes what killed programs left of that in the folder, which nobody else may be writing to.
+// Removes what programs that do not run any more left of that in the folder.
 Status RemoveTemporaries(const std::filesystem::path& folder);
 
 // Creates the folder and its parents; fails (kOutputFailed) when `path` exists and is no folder.

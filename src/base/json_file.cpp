@@ -78,7 +78,10 @@ Result<nlohmann::ordered_json> ReadJson(const std::filesystem::path& path,
   return json;
 }
 
-std::string JsonText(const nlohmann::ordered_json& json) { return json.dump(2) + "\n"; }
+// A name of a file need not be UTF-8.
+std::string JsonText(const nlohmann::ordered_json& json) {
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
 
 Status WriteJson(const std::filesystem::path& path, const nlohmann::ordered_json& json) {
   return WriteFileAtomically(path, JsonText(json));

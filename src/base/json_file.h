@@ -31,7 +31,8 @@ Result<nlohmann::ordered_json> ParseJson(std::string_view text);
 Result<nlohmann::ordered_json> ReadJson(const std::filesystem::path& path,
                                         const std::string& schema, const std::string& maker);
 
-// Two-space indented text with a final line feed; doubles read back to the same value.
+// Two-space indented text with a final line feed; doubles read back to the same value, bytes that
+// are not UTF-8 as U+FFFD.
 std::string JsonText(const nlohmann::ordered_json& json);
 Status WriteJson(const std::filesystem::path& path, const nlohmann::ordered_json& json);
 

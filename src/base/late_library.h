@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mutex>
 #include <string>
 
 namespace telestrain {
@@ -17,14 +18,16 @@ class LateLibrary {
   Function* Find(const char* symbol) const {
     return reinterpret_cast<Function*>(Address(symbol));
   }
-  // What the loader said and the remedy; empty when the library is there.
-  const std::string& Failure() const { return failure_; }
+  // What is not there of the library and all that was asked for, and the remedy; else empty.
+  std::string Failure() const;
 
  private:
   void* Address(const char* symbol) const;
 
+  std::string file_;
   void* library_;
-  std::string failure_;
+  mutable std::mutex mutex_;
+  mutable std::string failure_;  // under the mutex
 };
 
 }  // namespace telestrain

@@ -54,8 +54,8 @@ Result<PathLock> PathLock::Lock(const std::filesystem::path& path, const std::st
       return OutputFailed(path.string() + ": is in use by " + HolderOf(lock.descriptor_) + "; " +
                           remedy);
   }
-  return OutputFailed(path.string() + ": cannot be locked: " + std::strerror(errno) + "; " +
-                      remedy);
+  return OutputFailed(path.string() + ": cannot be locked: " + std::strerror(errno) +
+                      "; choose a place on a local disk that you may read and write");
 }
 
 Result<PathLock> PathLock::Take(const std::filesystem::path& path, const std::string& remedy) {

@@ -48,6 +48,9 @@ std::string RemedyOf(int error_number) {
   if (error_number == EACCES || error_number == EPERM) return "; allow reading it";
   if (error_number == ELOOP) return "; give the file itself instead of the link";
   if (error_number == ENAMETOOLONG) return "; give a shorter path";
+  if (error_number == EMFILE || error_number == ENFILE)
+    return "; allow more open files (ulimit -n) or end other programs";
+  if (error_number == ENOMEM) return "; allow more memory (ulimit -v) or end other programs";
   return "; copy the file to another place and give that one";
 }
 

@@ -18,8 +18,8 @@ namespace {
 constexpr std::array kEndingSignals = {std::pair{SIGINT, "SIGINT"}, std::pair{SIGTERM, "SIGTERM"},
                                        std::pair{SIGHUP, "SIGHUP"}};
 constexpr int kExitOfSignal = 128;  // as shells have it
-// A disk that hangs must not make the program deaf.
-constexpr auto kMostPatience = std::chrono::seconds(5);
+// A disk or a lock that hangs must not make the program deaf.
+constexpr int kMostPatience_s = 5;
 
 struct Shared {
   std::shared_timed_mutex whole;  // held shared by what must be done whole
@@ -44,14 +44,22 @@ AfterSignal ActAt(int number) {
   return AfterSignal::kEnd;
 }
 
+volatile sig_atomic_t ending_number = 0;
+
+// What is to be done at the signal takes too long.
+void EndAtAlarm(int) { ::_exit(kExitOfSignal + ending_number); }
+
 [[noreturn]] void AwaitSignals(const sigset_t& signals) {
   whole_depth = 1;
   while (true) {
     int number = 0;
     if (::sigwait(&signals, &number) != 0) continue;
     std::unique_lock lock(TheShared().whole, std::defer_lock);
-    [[maybe_unused]] const bool in_time = lock.try_lock_for(kMostPatience);
+    [[maybe_unused]] const bool in_time = lock.try_lock_for(std::chrono::seconds(kMostPatience_s));
+    ending_number = number;
+    ::alarm(kMostPatience_s);
     if (ActAt(number) == AfterSignal::kEnd) ::_exit(kExitOfSignal + number);
+    ::alarm(0);
   }
 }
 
@@ -77,6 +85,7 @@ void HandleSignals() {
   OpenStandardStreams();
   ::signal(SIGPIPE, SIG_IGN);
   ::signal(SIGXFSZ, SIG_IGN);
+  ::signal(SIGALRM, EndAtAlarm);
   sigset_t signals;
   sigemptyset(&signals);
   for (const auto& [number, name] : kEndingSignals)

@@ -8,7 +8,8 @@ namespace telestrain {
 
 // What the program does when the person or the system ends it: SIGINT (Ctrl-C), SIGTERM, SIGHUP.
 // A thread waits for them, so that anything may be done then; no file is being written at that
-// moment, and the process ends with 128 + the signal's number. A signal that whoever started the
+// moment, unless the disk hangs for 5 s. The process ends with 128 + the signal's number, 5 s later
+// at the latest. A signal that whoever started the
 // program had it ignore (nohup) stays ignored.
 
 // To be called once, first of all in main, before there is another thread. Also: a reader of stdout
@@ -34,7 +35,8 @@ class AtSignal {
   std::list<std::function<AfterSignal(int)>>::iterator place_;
 };
 
-// While one lives, no signal ends the process: for what must be done whole. To be held for moments.
+// While one lives, no signal ends the process within 5 s: for what must be done whole. To be held
+// for moments.
 class NoSignalNow {
  public:
   NoSignalNow();

@@ -114,6 +114,10 @@ Result<TableReader> OpenTable(const fs::path& path, const ColumnRules& rules) {
   TELESTRAIN_ASSIGN_OR_RETURN(const std::string text, ReadFile(path, kMostTableBytes));
   TELESTRAIN_ASSIGN_OR_RETURN(CsvTable table, ParseCsv(path.string(), text));
   TELESTRAIN_RETURN_IF_ERROR(CheckColumns(table, rules));
+  if (table.rows.size() > kMostTableRows)
+    return BadInput(path.string() + ": has " + std::to_string(table.rows.size()) +
+                    " rows, the limit is " + std::to_string(kMostTableRows) +
+                    "; divide it into several sessions");
   return TableReader(std::move(table));
 }
 

@@ -5,13 +5,21 @@
 
 #include <csetjmp>
 #include <cstdint>
+#include <new>
 #include <vector>
 
 namespace telestrain {
 namespace {
 
+// No exception may pass libpng.
 void Append(png_structp png, png_bytep bytes, png_size_t count) {
-  static_cast<std::string*>(png_get_io_ptr(png))->append(reinterpret_cast<char*>(bytes), count);
+  bool has_room = true;
+  try {
+    static_cast<std::string*>(png_get_io_ptr(png))->append(reinterpret_cast<char*>(bytes), count);
+  } catch (const std::bad_alloc&) {
+    has_room = false;
+  }
+  if (!has_room) png_error(png, "out of memory");
 }
 
 void KeepMessage(png_structp png, png_const_charp message) {
@@ -56,11 +64,11 @@ bool Write(png_structp png, png_infop info, const GrayImage& image, const std::u
 
 Result<std::string> EncodePng(const GrayImage& image) {
   std::string bytes, message = "out of memory";
+  const std::vector<std::uint8_t> levels = LevelBytes(image);
   png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &message, KeepMessage, Ignore);
   png_infop info = png != nullptr ? png_create_info_struct(png) : nullptr;
   bool written = false;
   if (info != nullptr) {
-    const std::vector<std::uint8_t> levels = LevelBytes(image);
     png_set_write_fn(png, &bytes, Append, nullptr);
     written = Write(png, info, image, levels.data());
   }

@@ -38,17 +38,15 @@ const LateLibrary& Codecs() {
   return library;
 }
 
-cv::Mat Imdecode(const cv::Mat& bytes) {
-  static auto* const imdecode =
-      Codecs().Find<cv::Mat(const cv::_InputArray&, int)>("_ZN2cv8imdecodeERKNS_11_InputArrayEi");
-  return imdecode ? imdecode(bytes, cv::IMREAD_UNCHANGED) : cv::Mat();
-}
+using Imdecode = cv::Mat(const cv::_InputArray&, int);
+constexpr const char* kImdecode = "_ZN2cv8imdecodeERKNS_11_InputArrayEi";
 
 }  // namespace
 
 DecodedPixels DecodeOther(std::string_view bytes) {
   DecodedPixels decoded;
-  if (!Codecs().Failure().empty()) {
+  static Imdecode* const imdecode = Codecs().Find<Imdecode>(kImdecode);
+  if (!imdecode) {
     decoded.failure = "or cannot be decoded here: " + Codecs().Failure();
     return decoded;
   }
@@ -56,7 +54,7 @@ DecodedPixels DecodeOther(std::string_view bytes) {
     const QuietErrors quiet;
     const cv::Mat input(1, static_cast<int>(bytes.size()), CV_8U,
                         const_cast<char*>(bytes.data()));  // only read
-    decoded.pixels = Imdecode(input);
+    decoded.pixels = imdecode(input, cv::IMREAD_UNCHANGED);
   } catch (const cv::Exception&) {
     decoded.pixels.release();
   }

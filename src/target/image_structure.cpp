@@ -158,9 +158,13 @@ std::string TiffFault(std::string_view bytes, const ImageSize& size) {
       RowBytes(double(size.width_px), double(facts.bits)) * double(size.height_px);
   if (wanted > double(bytes.size()) * (facts.compression == 1 ? 1 : kMostLzw))
     return TooShort(bytes, size);
-  const std::size_t next = Unsigned(bytes, end, 4, big);
-  if (next != 0 && !IsPreview(bytes, next, big))
-    return "is one of several in the file (the second begins at byte " + std::to_string(next) + ")";
+  constexpr int kMostPreviews = 16;  // a list may lead back into itself
+  std::size_t next = Unsigned(bytes, end, 4, big);
+  for (int previews = 0; next != 0; ++previews) {
+    if (previews == kMostPreviews || !IsPreview(bytes, next, big))
+      return "is one of several in the file (another begins at byte " + std::to_string(next) + ")";
+    next = Unsigned(bytes, next + 2 + std::size_t{12} * Unsigned(bytes, next, 2, big), 4, big);
+  }
   return "";
 }
 

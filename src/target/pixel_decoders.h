@@ -13,9 +13,10 @@ struct DecodedPixels {
 };
 
 // Decode a whole image, by libpng, libjpeg and OpenCV. The size that the header states is believed:
-// check it before (image_header.h). Damage of any kind is a failure, where other readers warn and
-// fill the rest with grey. Transparency is left out; the EXIF orientation is not followed, pixels
-// stand as the sensor gave them. Nothing is written to stderr. Thread-safe.
+// check it before (image_header.h). Damage of the pixels is a failure, where other readers warn and
+// fill the rest with grey; that of remarks beside them, or behind the image, is none. Transparency
+// is left out; the EXIF orientation is not followed, pixels stand as the sensor gave them. Nothing
+// is written to stderr. Thread-safe.
 DecodedPixels DecodePng(std::string_view bytes);
 DecodedPixels DecodeJpeg(std::string_view bytes);
 DecodedPixels DecodeOther(std::string_view bytes);  // TIFF, BMP and PNM

@@ -62,6 +62,9 @@ TEST_F(ReportVerb, UsageErrorsNameTheRemedyAndKeepTheOldReport) {
   ExpectUsageError(Report({"--archive-level", "2b"}), "3a");
   ExpectUsageError(RunTelestrain({"report"}), "--list");
   EXPECT_EQ(Report({"--templates", (scratch() / "none").string()}).exit_code, 3);
+  // Neither do results that cannot be compared with.
+  for (const fs::path& itself : {results(), results() / "report.pdf"})
+    EXPECT_EQ(Report({"--template", "reverification", "--against", itself.string()}).exit_code, 3);
   EXPECT_EQ(ReadAll(results() / "report.pdf"), before);
 }
 

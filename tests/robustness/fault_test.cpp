@@ -101,8 +101,8 @@ TEST_F(Faults, WhatWasChangedOrTakenAwayIsMadeAgain) {
   std::ofstream(out / "pipe_003.vtp") << "a state more";
   fs::remove(out / "mrcal.json");
   fs::remove(out / "pictures/array.png");
-  std::ofstream(out / "results.json.telestrain-part-77") << "half";
-  std::ofstream(out / "pictures/array.png.telestrain-part-78") << "half";
+  std::ofstream(out / "results.json.telestrain-part-99999999") << "half";
+  std::ofstream(out / "pictures/array.png.telestrain-part-99999999") << "half";
   const ProgramRun run = RunTelestrain(RunInto(out));
   EXPECT_EQ(run.exit_code, 0) << run.err;
   for (const char* step : {"detect     kept", "calibrate  kept", "verify     kept"})
@@ -178,8 +178,13 @@ TEST_F(Faults, ASignalEndsARunWithWholeFilesAndTheNextGoesOn) {
 TEST_F(Faults, ASignalThatIsIgnoredStaysIgnored) {
   const fs::path out = Copy("ignored");
   const ProgramRun run =
-      Shell("trap '' HUP; $TELESTRAIN diagnose $OUT & sleep 0.05; kill -HUP $!; wait $!", out);
+      // Once it has its results folder, the program has long looked at its signals.
+      Shell(R"(trap '' HUP; $TELESTRAIN diagnose $OUT & program=$!
+until grep -q "FLOCK .* $program " /proc/locks || ! kill -0 $program; do :; done
+kill -HUP $program && echo sent; wait $program)",
+            out);
   EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_TRUE(Holds(run.out, "sent")) << run.out;
 }
 
 TEST_F(Faults, AReaderThatGoesAwayLosesNoResults) {

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include "app/exit_codes.h"
+#include "app/pages/offer.h"
 #include "app/pages/option_facts.h"
 #include "app/pages/page_texts.h"
 #include "app/pages/roff.h"
@@ -11,7 +12,7 @@ namespace telestrain {
 namespace {
 
 // A footer is keys of a window, exit codes, "Example: …" and, after an empty line, notes that keep
-// their breaks; each may be missing.
+// their breaks; each may be missing, but without an example the keys go too.
 struct Footer {
   std::string keys, examples, notes;
 };
@@ -30,12 +31,6 @@ Footer ReadFooter(const CLI::App& app) {
   return footer;
 }
 
-std::string NamesOf(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
-}
-
 void WriteSynopsis(RoffPage& page, const std::string& command, const CLI::App& app) {
   std::string arguments, required;
   for (const OptionFacts& option : OptionsOf(app)) {
@@ -50,12 +45,13 @@ void WriteSynopsis(RoffPage& page, const std::string& command, const CLI::App& a
 void WriteOption(RoffPage& page, const OptionFacts& option) {
   std::string text = option.help;
   if (!option.range.empty()) text += "; " + option.range;
-  if (!option.choices.empty() && option.is_argument) text += "; one of " + NamesOf(option.choices);
+  if (!option.choices.empty() && option.is_argument)
+    text += "; one of " + Joined(option.choices, ", ");
   if (option.is_required) text += "; required";
   if (!option.default_value.empty()) text += "; default: " + option.default_value;
   if (!option.environment.empty()) text += "; or from " + option.environment;
-  if (!option.needs.empty()) text += "; needs " + NamesOf(option.needs);
-  if (!option.excludes.empty()) text += "; not with " + NamesOf(option.excludes);
+  if (!option.needs.empty()) text += "; needs " + Joined(option.needs, ", ");
+  if (!option.excludes.empty()) text += "; not with " + Joined(option.excludes, ", ");
   page.TaggedOption(option.Shown(), text);
 }
 
@@ -85,7 +81,7 @@ void WriteEnvironment(RoffPage& page, const CLI::App& app, const PageText& text)
 void WriteExitStatus(RoffPage& page, const PageText& text) {
   if (!text.exit_status.empty()) return WriteNamed(page, "EXIT STATUS", text.exit_status);
   page.Section("EXIT STATUS");
-  for (const ExitCode& exit : kExitCodes) page.Tagged(std::to_string(exit.code), exit.meaning);
+  for (const ExitCode& exit : kExitCodes) page.Tagged(exit.code, exit.meaning);
 }
 
 std::string PageName(const std::string& program, const std::string& page) {

@@ -226,7 +226,8 @@ const PageText kView = {
      {"2", "wrong usage"},
      {"3", "bad results"},
      {"5", "no display, or a file that cannot be written"},
-     {"70", "a defect of the program"}}};
+     {"70", "a defect of the program"},
+     {"128+N", "ended by signal N"}}};
 
 const std::vector<PageText>& AllTexts() {
   static const std::vector<PageText> kTexts = [] {

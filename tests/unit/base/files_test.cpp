@@ -6,6 +6,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <fstream>
 #include <iterator>
 #include <utility>
 
@@ -58,12 +59,23 @@ TEST(FilesTest, AReplacedFileKeepsItsPermissionsAndNoLinkIsFollowed) {
 
 TEST(FilesTest, WhatAKilledProgramLeftIsToldFromWhatPeopleName) {
   const ScratchFolder folder("files_left");
-  for (const char* name : {"a.json.telestrain-part-7", "a.json", "a.telestrain-part-",
-                           "a.telestrain-part-7b", ".telestrain-part-7", "a.part7"})
+  for (const char* name : {"a.json.telestrain-part-99999999", "a.json", "a.telestrain-part-",
+                           "a.telestrain-part-99999999b", ".telestrain-part-99999999", "a.part7"})
     ASSERT_TRUE(WriteFileAtomically(folder.path() / name, "x").ok());
   ASSERT_TRUE(RemoveTemporaries(folder.path()).ok());
   EXPECT_EQ(EntryCount(folder.path()), 5);
-  EXPECT_FALSE(std::filesystem::exists(folder.path() / "a.json.telestrain-part-7"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "a.json.telestrain-part-99999999"));
+}
+
+TEST(FilesTest, WhatAnotherProgramIsWritingStays) {
+  const ScratchFolder folder("files_of_others");
+  const auto other = folder.path() / ("a.telestrain-part-" + std::to_string(::getppid()));
+  const auto own = TemporaryFor(folder.path() / "film.mp4", ".mp4");
+  for (const auto& path : {other, own}) std::ofstream(path) << "half";
+  EXPECT_TRUE(IsTemporary(own.filename().string()));
+  ASSERT_TRUE(RemoveTemporaries(folder.path()).ok());
+  EXPECT_TRUE(fs::exists(other));
+  EXPECT_FALSE(fs::exists(own));
 }
 
 TEST(FilesTest, TheRemedyFitsTheReason) {

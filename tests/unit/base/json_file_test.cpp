@@ -69,6 +69,10 @@ TEST(JsonFileTest, NumbersOfWhichProductsWouldOverflowAreRefused) {
   EXPECT_TRUE(ParseJson("[1e100, 1e-300, 18446744073709551615]").ok());
 }
 
+TEST(JsonFileTest, WhatIsNotUtf8IsMarked) {
+  EXPECT_EQ(JsonText({{"file", "c\xff.vnl"}}), "{\n  \"file\": \"c\xef\xbf\xbd.vnl\"\n}\n");
+}
+
 TEST(JsonFileTest, APathThatCannotBeAskedForIsBadInput) {
   const ScratchFolder folder("json_paths");
   std::filesystem::create_symlink("loop", folder.path() / "loop");

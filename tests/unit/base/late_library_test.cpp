@@ -12,6 +12,9 @@ TEST(LateLibrary, GivesTheFunctionsThatItHas) {
   ASSERT_NE(cosine, nullptr);
   EXPECT_EQ(cosine(0), 1);
   EXPECT_EQ(math.Find<void()>("no_such_function"), nullptr);
+  EXPECT_EQ(math.Failure(),
+            "libm.so.6 has no function no_such_function; install that library as this release of "
+            "Debian has it");
 }
 
 TEST(LateLibrary, SaysWhatIsNotThere) {

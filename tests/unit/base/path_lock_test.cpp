@@ -49,8 +49,10 @@ TEST(PathLock, APlaceThatIsNotThereIsAnErrorWithTheRemedy) {
   const auto lock = PathLock::Take("/nowhere/log.jsonl", "name another log");
   ASSERT_FALSE(lock.ok());
   EXPECT_EQ(lock.error().kind, ErrorKind::kOutputFailed);
-  EXPECT_EQ(lock.error().message,
-            "/nowhere/log.jsonl: cannot be locked: No such file or directory; name another log");
+  EXPECT_EQ(
+      lock.error().message,
+      "/nowhere/log.jsonl: cannot be locked: No such file or directory; choose a place on a local "
+      "disk that you may read and write");
 }
 
 }  // namespace

@@ -152,5 +152,13 @@ TEST(ReadSessionErrorTest, NestingAndLineLengthAreBounded) {
   ExpectSays(MessageOf(sample), "bytes, the limit is 16384; break it into several lines");
 }
 
+TEST(ReadSessionErrorTest, TablesAreNotLongerThanResultsCanTell) {
+  const SampleFolder sample("rows");
+  std::string text = "image,pose,stage_mm\n";
+  for (int i = 0; i <= 5000; ++i) text += "a.png,1,0\n";
+  sample.Write("calibration.csv", text);
+  ExpectSays(MessageOf(sample), "calibration.csv: has 5001 rows, the limit is 5000; divide it");
+}
+
 }  // namespace
 }  // namespace telestrain
