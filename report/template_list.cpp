@@ -43,6 +43,16 @@ Result<TemplateList> ListTemplates(const std::filesystem::path& folder) {
   return list;
 }
 
+namespace {
+
+void CollectPictures(const Json& blocks, std::set<std::string>& pictures) {
+  if (TextAt(blocks, "/type") == "picture") pictures.insert(TextAt(blocks, "/file"));
+  if (!blocks.is_structured()) return;
+  for (const Json& block : blocks) CollectPictures(block, pictures);
+}
+
+}  // namespace
+
 Result<LayoutScope> ScopeOfLayout(const ReportOptions& options) {
   TELESTRAIN_ASSIGN_OR_RETURN(
       const ReportTemplate layout,
@@ -55,6 +65,7 @@ Result<LayoutScope> ScopeOfLayout(const ReportOptions& options) {
   if (limits.is_object())
     for (const auto& [key, limit] : limits.items()) found.scope.limits[key] = limit.get<double>();
   found.against_earlier = EntryAt(layout.json(), "/scope/against_earlier") == true;
+  CollectPictures(layout.blocks(), found.pictures);
   return found;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -19,8 +20,9 @@ struct TemplateList {
 Result<TemplateList> ListTemplates(const std::filesystem::path& folder);
 
 struct LayoutScope {
-  ReportScope scope;             // without the earlier results
-  bool against_earlier = false;  // the layout needs them
+  ReportScope scope;               // without the earlier results
+  bool against_earlier = false;    // the layout needs them
+  std::set<std::string> pictures;  // file names in pictures/ that its blocks show
 };
 // What the layout of `options` says of its content. Fails as ReportTemplate::Load.
 Result<LayoutScope> ScopeOfLayout(const ReportOptions& options);

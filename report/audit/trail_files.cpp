@@ -118,6 +118,16 @@ Status CheckStory(const std::vector<AuditEntry>& entries) {
   return {};
 }
 
+// Whether the pictures of an entry gave way to those of a later one.
+bool IsDrawnAnew(const std::vector<AuditEntry>& entries, std::size_t index) {
+  const auto after = entries.begin() + static_cast<std::ptrdiff_t>(index) + 1;
+  return entries[index].type == "render" &&
+         std::any_of(after, entries.end(), [&](const AuditEntry& entry) {
+           return entry.type == "render" && EntryAt(entry.body, "/options/out") ==
+                                                EntryAt(entries[index].body, "/options/out");
+         });
+}
+
 bool IsAsMade(const fs::path& file, const std::string& path, const TrailFile& made) {
   return CheckFile(file, path, "", made).ok();
 }
@@ -128,7 +138,7 @@ Result<std::size_t> CheckOutputs(const std::vector<AuditEntry>& entries, const f
     std::error_code code;
     const std::string made_by = LineName(entries, file.entry) + " of the audit trail";
     if (!fs::exists(results / path, code)) {
-      if (IsSuperseded(entries, file.entry)) continue;
+      if (IsSuperseded(entries, file.entry) || IsDrawnAnew(entries, file.entry)) continue;
       return BadInput(path + " is missing, which " + made_by + " made");
     }
     TELESTRAIN_RETURN_IF_ERROR(CheckFile(results / path, path, made_by, file));

@@ -9,12 +9,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The entry "open" is that of `detect`.
-std::string VerbOf(const std::string& type) { return type == "open" ? "detect" : type; }
+// The entry "open" is that of `detect`, "results" that of `report`.
+std::string VerbOf(const std::string& type) {
+  return type == "open" ? "detect" : type == "results" ? "report" : type;
+}
 
 }  // namespace
 
-std::vector<std::string> ChangesSinceRecorded(const fs::path& results) {
+std::vector<std::string> ChangesSinceRecorded(const fs::path& results,
+                                              const std::vector<std::string>& names) {
   std::vector<std::string> sentences;
   const fs::path trail = results / "audit.jsonl";
   std::error_code code;
@@ -24,17 +27,25 @@ std::vector<std::string> ChangesSinceRecorded(const fs::path& results) {
   const auto entries = ReadAuditTrail(trail.string(), *text);
   if (!entries) return sentences;
   const auto recorded = LatestOutputs(*entries);
-  for (const char* name : {"inputs.json", "detection.json", "calibration.json", "mrcal.json",
-                           "ruler.json", "strain.json"}) {
+  for (const std::string& name : names) {
     const auto known = recorded.find(name);
     if (known == recorded.end() || !fs::exists(results / name, code)) continue;
     const auto hash = Sha256HexOfFile(results / name);
     if (hash && *hash != known->second.sha256)
       sentences.push_back((results / name).string() + ": was changed since 'telestrain " +
-                          VerbOf((*entries)[known->second.entry].type) +
-                          "' wrote it; 'telestrain audit verify' will fail");
+                          VerbOf((*entries)[known->second.entry].type) + "' wrote it");
   }
   return sentences;
+}
+
+Status RequireAsRecorded(const fs::path& results) {
+  std::vector<std::string> names = kMeasuredFiles;
+  names.emplace_back("results.json");
+  const auto changes = ChangesSinceRecorded(results, names);
+  if (changes.empty()) return {};
+  return BadInput(changes.front() +
+                  "; put back the file that it wrote, or do that step and those " +
+                  "after it again");
 }
 
 }  // namespace telestrain

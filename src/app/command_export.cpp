@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <map>
 
+#include "app/changed_results.h"
 #include "app/command.h"
 #include "app/export_certificate.h"
 #include "app/export_files.h"
@@ -94,6 +95,7 @@ class ExportCommand : public Command {
   }
 
   Status WriteCertificate(Console& console) const {
+    TELESTRAIN_RETURN_IF_ERROR(RequireAsRecorded(results_));
     TELESTRAIN_RETURN_IF_ERROR(ExportCertificate(results_, certificate_, schema_));
     const std::string checked = schema_.empty() ? "" : ", valid against dcc.xsd in " + schema_;
     console.Say("export     " + certificate_ + checked);

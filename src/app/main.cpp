@@ -55,18 +55,48 @@ int RunCommand(Command& command, const CLI::App& verb, const InstrumentLog& log,
   return run.exit_code;
 }
 
-// The complaint about a first argument that is neither an option nor a verb; else empty.
-std::string UnknownVerb(int argc, char** argv, const std::vector<std::string>& verbs) {
-  const std::string word = argc > 1 ? argv[1] : "";
-  if (word.empty() || word.front() == '-') return "";
-  if (std::find(verbs.begin(), verbs.end(), word) != verbs.end()) return "";
-  return "telestrain: unknown verb '" + PrintableText(word) + "'; the nearest verb is '" +
-         NearestWord(word, verbs) + "'\nRun with --help for all verbs.";
+std::vector<std::string> OptionNames(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  return names;
+}
+
+// The complaint about the first verb or long option that the program does not know, before the
+// parser says what else is missing; else empty.
+std::string UnknownWord(int argc, char** argv, const CLI::App& program) {
+  const CLI::App* app = &program;
+  std::string path = "telestrain";
+  const auto complaint = [&](const std::string& kind, const std::string& word,
+                             const std::vector<std::string>& known) {
+    return path + ": unknown " + kind + " '" + PrintableText(word) + "'; the nearest " + kind +
+           " is '" + NearestWord(word, known) + "'\nRun '" + path + " --help' for all of them.";
+  };
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i], name = word.substr(0, word.find('='));
+    if (word == "--") return "";
+    if (word.starts_with("--")) {
+      const CLI::Option* option = app->get_option_no_throw(name);
+      if (option == nullptr) option = program.get_option_no_throw(name);
+      if (option == nullptr) return complaint("option", name, OptionNames(*app));
+      if (name == word && option->get_items_expected_max() > 0) ++i;  // its value
+      continue;
+    }
+    const auto verbs = app->get_subcommands([](const CLI::App*) { return true; });
+    if (word.starts_with("-") || verbs.empty()) continue;
+    std::vector<std::string> names;
+    for (const CLI::App* verb : verbs) names.push_back(verb->get_name());
+    const auto found = std::find(names.begin(), names.end(), word);
+    if (found == names.end()) return complaint("verb", word, names);
+    app = verbs[static_cast<std::size_t>(found - names.begin())];
+    path += " " + word;
+  }
+  return "";
 }
 
 int Main(int argc, char** argv) {
   Program program;
-  if (const std::string complaint = UnknownVerb(argc, argv, program.Verbs()); !complaint.empty()) {
+  if (const std::string complaint = UnknownWord(argc, argv, program.app()); !complaint.empty()) {
     std::cerr << complaint << '\n';
     return kUsageExit;
   }

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -122,8 +123,20 @@ Result<PipeMeasurement> MeasureWatched(const Session& described, const fs::path&
   return measurement;
 }
 
-Status WriteMeasurement(const PipeMeasurement& measurement, const fs::path& results,
-                        Console& console) {
+// Strain follows from the pipe as measured; another pipe than is meant is still another one.
+void WarnOfOtherDiameter(const Session& session, const PipeMeasurement& measurement,
+                         Console& console) {
+  constexpr double kMost = 0.03;  // tubes keep to a few tenths of a per cent
+  const double nominal_mm = session.pipe.outer_diameter_mm,
+               found_mm = measurement.geometry.diameter_mm;
+  if (nominal_mm > 0 && std::abs(found_mm / nominal_mm - 1) > kMost)
+    console.Warn("the pipe's diameter is " + FormatFixed(found_mm, 3) +
+                 " mm as measured, [pipe] outer_diameter_mm of session.toml says " +
+                 FormatShortest(nominal_mm) + " mm: is it the right pipe, and the right number?");
+}
+
+Status WriteMeasurement(const Session& session, const PipeMeasurement& measurement,
+                        const fs::path& results, Console& console) {
   TELESTRAIN_ASSIGN_OR_RETURN(
       const auto made_from,
       HashesOf(results, {"inputs.json", "calibration.json", "strain_states.jsonl"}));
@@ -134,6 +147,7 @@ Status WriteMeasurement(const PipeMeasurement& measurement, const fs::path& resu
   console.Say("measure    " + CountText(measurement.states.size(), "state") + ", " +
               CountText(measurement.grid.points.size(), "surface point") + ", pipe diameter " +
               FormatFixed(measurement.geometry.diameter_mm, 4) + " mm");
+  WarnOfOtherDiameter(session, measurement, console);
   return {};
 }
 
@@ -198,7 +212,7 @@ Status MeasureStep(const Session& session, const fs::path& results, const Measur
   if (choices.watch) {
     TELESTRAIN_ASSIGN_OR_RETURN(const PipeMeasurement measurement,
                                 MeasureWatched(session, results, options, *choices.watch, console));
-    TELESTRAIN_RETURN_IF_ERROR(WriteMeasurement(measurement, results, console));
+    TELESTRAIN_RETURN_IF_ERROR(WriteMeasurement(session, measurement, results, console));
     return RecordStep(results, WatchRecord(session, choices, measurement));
   }
   if (earlier == Earlier::kKept) {
@@ -214,7 +228,7 @@ Status MeasureStep(const Session& session, const fs::path& results, const Measur
   }
   TELESTRAIN_ASSIGN_OR_RETURN(const PipeMeasurement measurement,
                               MeasureTable(session, results, options, console));
-  TELESTRAIN_RETURN_IF_ERROR(WriteMeasurement(measurement, results, console));
+  TELESTRAIN_RETURN_IF_ERROR(WriteMeasurement(session, measurement, results, console));
   for (const MeasuredState& state : measurement.states)
     console.Note("  " + state.table.image + ": " + FormatFixed(1e6 * state.strain.axial_strain, 2) +
                  " +- " + FormatFixed(1e6 * state.strain.standard_uncertainty, 2) +

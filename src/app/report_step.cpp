@@ -9,7 +9,6 @@
 #include "base/json_file.h"
 #include "base/numbers.h"
 #include "report/template_list.h"
-#include "viz/picture_set.h"
 
 namespace telestrain {
 namespace {
@@ -45,7 +44,7 @@ Result<int> SayVerdict(const fs::path& results, Console& console) {
 }
 
 // What the layout says of the report's content, with the earlier results that it needs.
-Result<ReportScope> ScopeOf(const ReportOptions& options, const fs::path& against,
+Result<LayoutScope> ScopeOf(const ReportOptions& options, const fs::path& against,
                             const fs::path& results) {
   TELESTRAIN_ASSIGN_OR_RETURN(LayoutScope layout, ScopeOfLayout(options));
   if (layout.against_earlier && against.empty())
@@ -61,7 +60,7 @@ Result<ReportScope> ScopeOf(const ReportOptions& options, const fs::path& agains
     return BadInput(against.string() +
                     ": is the results folder itself; name an earlier one with --against");
   layout.scope.earlier = against;
-  return layout.scope;
+  return layout;
 }
 
 Json OptionsOfResults(const ReportChoices& choices) {
@@ -83,8 +82,8 @@ StepRecord ResultsRecord(const ReportChoices& choices) {
           {"results.json", "dcc.xml"}};
 }
 
-// Every picture beside the report may stand in it, every file of the user's templates shape it.
-StepRecord ReportRecord(const fs::path& results, const ReportChoices& choices) {
+// Every file of the user's templates shapes the report.
+StepRecord ReportRecord(const ReportChoices& choices, const std::set<std::string>& pictures) {
   Json options = OptionsOfResults(choices);
   options["language"] = choices.language;
   options["archive-level"] = choices.level == ArchiveLevel::k1b ? "1b" : "3a";
@@ -97,10 +96,7 @@ StepRecord ReportRecord(const fs::path& results, const ReportChoices& choices) {
     if (entry->path().extension() == ".json" || entry->path().extension() == ".png")
       record.inputs_elsewhere.push_back(entry->path());
   std::sort(record.inputs_elsewhere.begin(), record.inputs_elsewhere.end());
-  for (fs::directory_iterator entry(results / "pictures", code), end; !code && entry != end;
-       entry.increment(code))
-    if (viz::IsStandardPicture(entry->path().filename().string()))
-      record.inputs.push_back("pictures/" + entry->path().filename().string());
+  for (const std::string& picture : pictures) record.inputs.push_back("pictures/" + picture);
   std::sort(record.inputs.begin(), record.inputs.end());
   return record;
 }
@@ -111,10 +107,11 @@ std::string PlaceOfReport(const fs::path& results) {
 }
 
 // Whether both results and report are; then says so.
-Result<bool> ReportIsKept(const fs::path& results, const ReportChoices& choices, Console& console) {
+Result<bool> ReportIsKept(const fs::path& results, const ReportChoices& choices,
+                          const std::set<std::string>& pictures, Console& console) {
   TELESTRAIN_ASSIGN_OR_RETURN(const bool decided, IsDone(results, ResultsRecord(choices)));
   if (!decided) return false;
-  TELESTRAIN_ASSIGN_OR_RETURN(const bool done, IsDone(results, ReportRecord(results, choices)));
+  TELESTRAIN_ASSIGN_OR_RETURN(const bool done, IsDone(results, ReportRecord(choices, pictures)));
   if (done)
     console.Say("report     " + PlaceOfReport(results) +
                 ", kept: made from the same inputs, options and program");
@@ -130,10 +127,6 @@ Result<int> ReportStep(const fs::path& results, const ReportChoices& choices, Co
   if (!fs::exists(results / "calibration.json", code))
     return BadInput((results / "calibration.json").string() +
                     ": does not exist; run 'telestrain calibrate' first");
-  if (earlier == Earlier::kKept) {
-    TELESTRAIN_ASSIGN_OR_RETURN(const bool kept, ReportIsKept(results, choices, console));
-    if (kept) return SayVerdict(results, console);
-  }
   std::set<std::string> untranslated;
   const ReportOptions options{choices.templates,
                               choices.layout,
@@ -142,14 +135,20 @@ Result<int> ReportStep(const fs::path& results, const ReportChoices& choices, Co
                               [&](const std::string& text) { untranslated.insert(text); },
                               [&](const std::string& note) { console.Note("  " + note); }};
   // A wrong layout must be known before an older report goes.
-  TELESTRAIN_ASSIGN_OR_RETURN(const ReportScope scope, ScopeOf(options, choices.against, results));
-  for (const std::string& change : ChangesSinceRecorded(results)) console.Warn(change);
+  TELESTRAIN_ASSIGN_OR_RETURN(const LayoutScope layout, ScopeOf(options, choices.against, results));
+  if (earlier == Earlier::kKept) {
+    TELESTRAIN_ASSIGN_OR_RETURN(const bool kept,
+                                ReportIsKept(results, choices, layout.pictures, console));
+    if (kept) return SayVerdict(results, console);
+  }
+  for (const std::string& change : ChangesSinceRecorded(results, kMeasuredFiles))
+    console.Warn(change + "; 'telestrain audit verify' will fail");
   // What cannot be read or compared must be known before an older report goes.
-  TELESTRAIN_RETURN_IF_ERROR(
-      MakeResults(results, scope, [&] { return RemoveOutputsFrom(results, Step::kReport); }));
+  TELESTRAIN_RETURN_IF_ERROR(MakeResults(
+      results, layout.scope, [&] { return RemoveOutputsFrom(results, Step::kReport); }));
   TELESTRAIN_RETURN_IF_ERROR(RecordStep(results, ResultsRecord(choices)));
   TELESTRAIN_RETURN_IF_ERROR(WriteReport(results, options));
-  TELESTRAIN_RETURN_IF_ERROR(RecordStep(results, ReportRecord(results, choices)));
+  TELESTRAIN_RETURN_IF_ERROR(RecordStep(results, ReportRecord(choices, layout.pictures)));
   console.Say("report     " + PlaceOfReport(results));
   if (!untranslated.empty())
     console.Note("  printed in English for want of a translation: " +

@@ -75,6 +75,7 @@ Status SetAside(const fs::path& path) {
 Status Remove(const fs::path& path) {
   if (IsSignedPdf(path)) return SetAside(path);
   std::error_code code;
+  if (!fs::exists(fs::symlink_status(path, code))) return {};
   fs::remove(path, code);
   if (!code) return {};
   return CannotRemove(path, "an old result", code.value());

@@ -11,6 +11,7 @@
 #include <iostream>
 #include <optional>
 
+#include "app/changed_results.h"
 #include "app/results_lock.h"
 #include "base/files.h"
 #include "base/signals.h"
@@ -155,6 +156,7 @@ Result<int> SignStep(const SignArguments& arguments, Console& console) {
   const fs::path folder = fs::absolute(target).parent_path();
   // Known before a password is asked for, which may take its time and keeps nobody out.
   if (const auto is_free = ResultsLock::Take(folder); !is_free) return is_free.error();
+  TELESTRAIN_RETURN_IF_ERROR(RequireAsRecorded(fs::absolute(arguments.report).parent_path()));
   TELESTRAIN_ASSIGN_OR_RETURN(const SigningKey key, KeyOf(arguments));
   // Held until the trail tells of the signature: nobody signs what another is about to replace.
   TELESTRAIN_ASSIGN_OR_RETURN(const ResultsLock lock, ResultsLock::Take(folder));

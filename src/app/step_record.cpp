@@ -90,6 +90,9 @@ Result<Json> BodyOf(const StepRecord& step, const fs::path& results, const Json&
       {"program", ProgramRecord()}, {"options", step.options}, {"inputs", std::move(inputs)}};
 }
 
+// Pictures of several renderings lie side by side; any other step makes its files anew.
+bool SharesItsFolder(const StepRecord& step) { return step.type == std::string("render"); }
+
 // The files of the entry lie in the results folder as it made them, and none that it did not make.
 bool FilesAreAsMade(const std::vector<AuditEntry>& entries, std::size_t index,
                     const StepRecord& step, const fs::path& results) {
@@ -98,15 +101,35 @@ bool FilesAreAsMade(const std::vector<AuditEntry>& entries, std::size_t index,
     if (TextAt(file, "/of") != "results") return false;
     made.insert(TextAt(file, "/path"));
   }
-  const std::vector<AuditEntry> alone(entries.begin() + static_cast<std::ptrdiff_t>(index),
-                                      entries.end());
+  const auto entry = entries.begin() + static_cast<std::ptrdiff_t>(index);
+  const std::vector<AuditEntry> alone(entry, SharesItsFolder(step) ? entry + 1 : entries.end());
   const auto files = LatestOutputs(alone);
   std::error_code code;
   for (const std::string& path : made)
     if (!fs::exists(results / path, code) || !IsAsMade(results / path, path, files.at(path)))
       return false;
+  const auto of_all = LatestOutputs(entries);
   return std::none_of(step.outputs.begin(), step.outputs.end(), [&](const std::string& name) {
-    return !made.contains(name) && fs::exists(results / name, code);
+    if (made.contains(name) || !fs::exists(results / name, code)) return false;
+    const auto other = of_all.find(name);
+    return !SharesItsFolder(step) || other == of_all.end() ||
+           !IsAsMade(results / name, name, other->second);
+  });
+}
+
+// Whether the entry tells of this step with what is there now.
+Result<bool> TellsOf(const std::vector<AuditEntry>& entries, std::size_t index,
+                     const StepRecord& step, const fs::path& results) {
+  if (!FilesAreAsMade(entries, index, step, results)) return false;
+  TELESTRAIN_ASSIGN_OR_RETURN(const Json inputs_json, ReadInputs(results));
+  // A report tells of the declared time.
+  if (step.type == "report" &&
+      entries[index].time != DeclaredTime(EntryAt(inputs_json, "/document")))
+    return false;
+  TELESTRAIN_ASSIGN_OR_RETURN(const Json body, BodyOf(step, results, inputs_json));
+  return std::all_of(body.items().begin(), body.items().end(), [&](const auto& item) {
+    return CanonicalJson(item.value()) ==
+           CanonicalJson(EntryAt(entries[index].body, "/" + item.key()));
   });
 }
 
@@ -135,22 +158,14 @@ Result<bool> IsDone(const fs::path& results, const StepRecord& step) {
   if (!fs::exists(results / "inputs.json", code)) return false;
   TELESTRAIN_ASSIGN_OR_RETURN(const AuditTrail trail, OpenTrail(results));
   const auto& entries = trail.entries();
-  const auto latest = std::find_if(entries.rbegin(), entries.rend(), [&](const AuditEntry& entry) {
-    return entry.type == step.type;
-  });
-  if (latest == entries.rend()) return false;
-  const auto index = static_cast<std::size_t>(entries.rend() - latest) - 1;
-  if (IsSuperseded(entries, index) || !FilesAreAsMade(entries, index, step, results)) return false;
-  TELESTRAIN_ASSIGN_OR_RETURN(const Json inputs_json, ReadInputs(results));
-  // A report tells of the declared time.
-  if (step.type == "report" &&
-      entries[index].time != DeclaredTime(EntryAt(inputs_json, "/document")))
-    return false;
-  TELESTRAIN_ASSIGN_OR_RETURN(const Json body, BodyOf(step, results, inputs_json));
-  return std::all_of(body.items().begin(), body.items().end(), [&](const auto& item) {
-    return CanonicalJson(item.value()) ==
-           CanonicalJson(EntryAt(entries[index].body, "/" + item.key()));
-  });
+  for (std::size_t index = entries.size(); index-- > 0;) {
+    if (entries[index].type != step.type) continue;
+    // A report that is there was not taken away: the pictures that were drawn since are not in it.
+    if (step.type != "report" && IsSuperseded(entries, index)) return false;
+    TELESTRAIN_ASSIGN_OR_RETURN(const bool tells, TellsOf(entries, index, step, results));
+    if (tells || !SharesItsFolder(step)) return tells;
+  }
+  return false;
 }
 
 Result<bool> IsKept(const fs::path& results, const StepRecord& step, Console& console) {

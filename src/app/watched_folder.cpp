@@ -143,10 +143,21 @@ bool WatchedFolder::MayBeNext(const std::string& name) const {
   return handed_out_ > 0 || table_.empty() || FileName(table_.front()) == name;
 }
 
+void WatchedFolder::SayThatItWaits(const std::string& name) {
+  if (!said_that_it_waits_)
+    console_.Note("  " + name + " waits for the reference, " + FileName(table_.front()) +
+                  ", which the first row of pipe.csv names");
+  said_that_it_waits_ = true;
+}
+
 // By name; a later image does not overtake one that is still being written.
 std::optional<PipeImage> WatchedFolder::TakeFirstReady() {
   for (auto& [name, file] : files_) {
-    if (file.done || file.bad || !MayBeNext(name)) continue;
+    if (file.done || file.bad) continue;
+    if (!MayBeNext(name)) {
+      SayThatItWaits(name);
+      continue;
+    }
     if (Clock::now() - file.since < kSettled) return {};
     auto image = Decode(name, file);
     if (image || !file.bad) return image;

@@ -60,6 +60,7 @@ class WatchedFolder : public PipeStream {
   std::optional<PipeImage> Decode(const std::string& name, File& file);
   PipeState RowOf(const std::string& name) const;
   bool MayBeNext(const std::string& name) const;
+  void SayThatItWaits(const std::string& name);
 
   const WatchChoices choices_;
   const Session& session_;
@@ -75,6 +76,7 @@ class WatchedFolder : public PipeStream {
   std::map<std::string, File> files_;
   int handed_out_ = 0;
   bool all_known_handed_out_ = false;
+  bool said_that_it_waits_ = false;
 };
 
 }  // namespace telestrain

@@ -62,6 +62,10 @@ Result<nlohmann::ordered_json> ParseJson(std::string_view text) {
 Result<nlohmann::ordered_json> ReadJson(const std::filesystem::path& path,
                                         const std::string& schema, const std::string& maker) {
   std::error_code code;
+  const std::filesystem::path folder = path.parent_path();
+  if (!folder.empty() && !std::filesystem::exists(folder, code) && !code)
+    return BadInput(folder.string() + ": does not exist; correct the path, or run '" + maker +
+                    "' first");
   if (!std::filesystem::exists(path, code))
     return BadInput(path.string() + ": does not exist; run '" + maker + "' first");
   TELESTRAIN_ASSIGN_OR_RETURN(const std::string text, ReadFile(path, kMostJsonBytes));

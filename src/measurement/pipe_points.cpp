@@ -78,6 +78,10 @@ Status PipeTracker::MatchGroup(const Session& session, int group, const GrayImag
   const StereoMatches matches = MatchAcross(array_, pair, location.pipe, views, options_.Step_px());
   grid_.found_by_search += matches.found_by_search;
   for (const auto& [reason, count] : matches.rejected) grid_.rejected[reason] += count;
+  if (matches.nodes < static_cast<int>(kMinMatches))
+    return EstimationFailed("group '" + pair.group + "': only " + std::to_string(matches.nodes) +
+                            " subsets fit into its field, at least " + std::to_string(kMinMatches) +
+                            " are needed; make --subset-px or --step-px smaller");
   if (matches.found.size() < kMinMatches)
     return EstimationFailed(
         "group '" + pair.group + "': only " + std::to_string(matches.found.size()) + " of " +

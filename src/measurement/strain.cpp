@@ -68,10 +68,12 @@ Error TooFewPoints(const std::string& group, std::size_t found, const StateStrai
   for (const auto& [reason, count] : state.points_rejected)
     reasons += (reasons.empty() ? " (lost: " : ", ") + std::to_string(count) + " " + reason;
   if (!reasons.empty()) reasons += ")";
-  return EstimationFailed("group '" + group + "': only " + std::to_string(found) +
-                          " points could be followed, at least " + std::to_string(kMinPatchPoints) +
-                          " are needed" + reasons +
-                          "; the pipe moved out of the field or the pattern changed");
+  return EstimationFailed(
+      "group '" + group + "': only " + std::to_string(found) +
+      " points could be followed, at least " + std::to_string(kMinPatchPoints) + " are needed" +
+      reasons +
+      "; the pipe moved out of the field or the pattern changed: record the image "
+      "again, or remove its row from pipe.csv");
 }
 
 // The points of one group that move together; takes out what does not.

@@ -94,6 +94,10 @@ Status CheckColumns(const CsvTable& table, const ColumnRules& rules) {
   known.insert(known.end(), rules.optional.begin(), rules.optional.end());
   if (rules.gauges) known.push_back("gauge_1_microstrain");
   const std::string place = table.name + ":" + std::to_string(table.header_line) + ": ";
+  if (table.columns.size() == 1 && table.columns.front().find_first_of(";\t") != std::string::npos)
+    return BadInput(place + "the columns are parted by '" +
+                    (table.columns.front().find(';') != std::string::npos ? ";" : "tab") +
+                    "'; write the table with ',' between them and '.' in numbers");
   for (const std::string& column : table.columns) {
     const bool is_known = std::find(known.begin(), known.end(), column) != known.end();
     if (is_known || (rules.gauges && IsGaugeColumn(column))) continue;

@@ -15,6 +15,7 @@ namespace {
 
 constexpr char kSchema[] = "telestrain.session/1";
 constexpr double kLargestLength_mm = 1e5;
+constexpr double kLongestRuler_mm = 2000;  // more is a number in µm
 constexpr double kLargestUncertainty_um = 1e4;
 constexpr double kSmallestStageZ = 0.5;  // cosine of 60 degrees
 
@@ -106,7 +107,7 @@ FieldReader TargetTable(TargetSpec& target) {
 }
 
 FieldReader RulerTable(RulerSpec& ruler) {
-  return Table({Required("length_mm", Number(ruler.length_mm, Above(0, kLargestLength_mm))),
+  return Table({Required("length_mm", Number(ruler.length_mm, Above(0, kLongestRuler_mm))),
                 Optional("sigma_length_um",
                          Number(ruler.sigma_length_um, From(0, kLargestUncertainty_um)))});
 }

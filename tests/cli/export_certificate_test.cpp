@@ -66,6 +66,17 @@ TEST_F(ExportCertificate, WhatBreaksTheSchemaIsBadInputWithItsLine) {
   EXPECT_NE(run.err.find("digitalCalibrationCertificate"), std::string::npos) << run.err;
 }
 
+TEST_F(ExportCertificate, OfResultsThatWereEditedIsNone) {
+  MakeReport();
+  std::ofstream(results() / "results.json", std::ios::app) << " ";
+  const ProgramRun run = RunExport({"--dcc", file().string()});
+  EXPECT_EQ(run.exit_code, 3);
+  EXPECT_NE(run.err.find("results.json: was changed since 'telestrain report' wrote it"),
+            std::string::npos)
+      << run.err;
+  EXPECT_FALSE(fs::exists(file()));
+}
+
 TEST_F(ExportCertificate, ComesBesideTheOtherFiles) {
   MakeReport();
   const fs::path out = scratch() / "interchange";

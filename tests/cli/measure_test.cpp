@@ -243,6 +243,7 @@ TEST_F(Watch, ASignalEndsItWithWholeResultsAndTheNextGoesOn) {
     const ProgramRun run = program.Wait();
     ASSERT_EQ(run.exit_code, 0) << run.err;
     EXPECT_EQ(nlohmann::json::parse(ReadAll(out / "strain.json")).at("states").size(), 2u);
+    EXPECT_TRUE(Holds(run.err, "pipe_001.png waits for the reference, pipe_000.png"));
   }
   Arrive(2);
   const ProgramRun run = RunTelestrain(WatchInto(out, {"--idle-s", "1"}));

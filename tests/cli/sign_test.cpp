@@ -66,6 +66,19 @@ TEST_F(SignVerb, SignsReplacesTheFileAndRecordsItInTheTrail) {
   EXPECT_EQ(ReadAll(Report()), after);
 }
 
+TEST_F(SignVerb, SignsNothingMadeOfResultsThatWereEdited) {
+  TakeRun({"run"});
+  const std::string before = ReadAll(Report());
+  std::ofstream(results() / "strain.json", std::ios::app) << " ";
+  const ProgramRun run = RunTelestrain(Words(
+      {"--role", "operator", "--p12", File("both.p12"), "--password-file", File("password")}));
+  EXPECT_EQ(run.exit_code, 3);
+  EXPECT_NE(run.err.find("strain.json: was changed since 'telestrain measure' wrote it"),
+            std::string::npos)
+      << run.err;
+  EXPECT_EQ(ReadAll(Report()), before);
+}
+
 TEST_F(SignVerb, KeepsPermissionsAndLinksAndTellsTheTrailBesideTheSignedFile) {
   TakeRun({"run"});
   const auto sign = [&](const std::string& report, const std::string& out = "") {

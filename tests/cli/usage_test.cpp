@@ -25,11 +25,17 @@ TEST(Usage, NoVerbIsAnErrorThatPointsToTheHelp) { ExpectUsageError({}, "--help")
 TEST(Usage, AnUnknownVerbIsNamedWithTheNearestKnownOne) {
   ExpectUsageError({"calibrte", "session"}, "unknown verb 'calibrte'");
   ExpectUsageError({"calibrte", "session"}, "'calibrate'");
+  ExpectUsageError({"--threads", "2", "calibrte"}, "unknown verb 'calibrte'");
+  ExpectUsageError({"audit", "vrify", "results"}, "the nearest verb is 'verify'");
 }
 
 TEST(Usage, AnUnknownOptionIsNamed) {
   ExpectUsageError({"run", "session", "--out", "results", "--colour"}, "--colour");
-  ExpectUsageError({"--colour"}, "");
+  ExpectUsageError({"--colour"}, "unknown option '--colour'");
+  ExpectUsageError({"run", "session", "--ot", "results"},
+                   "telestrain run: unknown option '--ot'; the nearest option is '--out'");
+  ExpectUsageError({"run", "--hepl"}, "'--help'");
+  ExpectUsageError({"--verison"}, "'--version'");
 }
 
 TEST(Usage, AMissingArgumentIsNamed) {

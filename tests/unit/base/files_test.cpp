@@ -74,8 +74,8 @@ TEST(FilesTest, WhatAnotherProgramIsWritingStays) {
   for (const auto& path : {other, own}) std::ofstream(path) << "half";
   EXPECT_TRUE(IsTemporary(own.filename().string()));
   ASSERT_TRUE(RemoveTemporaries(folder.path()).ok());
-  EXPECT_TRUE(fs::exists(other));
-  EXPECT_FALSE(fs::exists(own));
+  EXPECT_TRUE(std::filesystem::exists(other));
+  EXPECT_FALSE(std::filesystem::exists(own));
 }
 
 TEST(FilesTest, TheRemedyFitsTheReason) {

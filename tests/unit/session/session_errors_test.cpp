@@ -152,6 +152,15 @@ TEST(ReadSessionErrorTest, NestingAndLineLengthAreBounded) {
   ExpectSays(MessageOf(sample), "bytes, the limit is 16384; break it into several lines");
 }
 
+TEST(ReadSessionErrorTest, TablesOfASpreadsheetWithOtherSeparators) {
+  const SampleFolder sample("separators");
+  sample.Write("calibration.csv", "image;pose;stage_mm\na.png;1;0\n");
+  ExpectSays(MessageOf(sample),
+             "calibration.csv:1: the columns are parted by ';'; write the table");
+  sample.Write("calibration.csv", "image\tpose\tstage_mm\na.png\t1\t0\n");
+  ExpectSays(MessageOf(sample), "the columns are parted by 'tab'");
+}
+
 TEST(ReadSessionErrorTest, TablesAreNotLongerThanResultsCanTell) {
   const SampleFolder sample("rows");
   std::string text = "image,pose,stage_mm\n";
