@@ -9,6 +9,7 @@
 #include "base/json_file.h"
 #include "base/numbers.h"
 #include "report/template_list.h"
+#include "viz/picture_set.h"
 
 namespace telestrain {
 namespace {
@@ -106,12 +107,19 @@ std::string PlaceOfReport(const fs::path& results) {
   return fs::absolute(results / "report.pdf", code).lexically_normal().string();
 }
 
-// Whether both results and report are; then says so.
+// Whether both results and report are; then says so. Pictures that were drawn since to be looked at
+// are no reason to make it anew.
 Result<bool> ReportIsKept(const fs::path& results, const ReportChoices& choices,
                           const std::set<std::string>& pictures, Console& console) {
   TELESTRAIN_ASSIGN_OR_RETURN(const bool decided, IsDone(results, ResultsRecord(choices)));
   if (!decided) return false;
-  TELESTRAIN_ASSIGN_OR_RETURN(const bool done, IsDone(results, ReportRecord(choices, pictures)));
+  TELESTRAIN_ASSIGN_OR_RETURN(bool done, IsDone(results, ReportRecord(choices, pictures)));
+  if (!done) {
+    std::set<std::string> always;
+    for (const viz::PictureKind& kind : viz::PictureKinds())
+      if (kind.in_report) always.insert(std::string(kind.name) + ".png");
+    TELESTRAIN_ASSIGN_OR_RETURN(done, IsDone(results, ReportRecord(choices, always)));
+  }
   if (done)
     console.Say("report     " + PlaceOfReport(results) +
                 ", kept: made from the same inputs, options and program");

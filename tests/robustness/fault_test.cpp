@@ -99,13 +99,13 @@ TEST_F(Faults, AFinishedRunThatWasLookedAtIsKept) {
   const fs::path out = Copy("looked_at");
   const std::string report = ReadAll(out / "report.pdf");
   for (const std::vector<std::string>& words :
-       std::vector<std::vector<std::string>>{{"render", out, "--view", "top"}, RunInto(out)}) {
+       std::vector<std::vector<std::string>>{{"render", out, "--view", "side"}, RunInto(out)}) {
     const ProgramRun run = RunTelestrain(words);
     EXPECT_EQ(run.exit_code, 0) << run.err;
     EXPECT_TRUE(words != RunInto(out) || Holds(run.out, "render     kept")) << run.out;
   }
   EXPECT_TRUE(ReadAll(out / "report.pdf") == report);
-  EXPECT_TRUE(fs::exists(out / "pictures/top.png"));
+  EXPECT_TRUE(fs::exists(out / "pictures/side.png"));
   const ProgramRun audit = RunTelestrain({"audit", "verify", out});
   EXPECT_EQ(audit.exit_code, 0) << audit.out;
 }
