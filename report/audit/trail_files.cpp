@@ -118,13 +118,15 @@ Status CheckStory(const std::vector<AuditEntry>& entries) {
   return {};
 }
 
-// Whether the pictures of an entry gave way to those of a later one.
+// Whether the pictures of an entry gave way to a whole set that was drawn later; a single view
+// takes no other away.
 bool IsDrawnAnew(const std::vector<AuditEntry>& entries, std::size_t index) {
   const auto after = entries.begin() + static_cast<std::ptrdiff_t>(index) + 1;
   return entries[index].type == "render" &&
          std::any_of(after, entries.end(), [&](const AuditEntry& entry) {
-           return entry.type == "render" && EntryAt(entry.body, "/options/out") ==
-                                                EntryAt(entries[index].body, "/options/out");
+           return entry.type == "render" && TextAt(entry.body, "/options/view").empty() &&
+                  EntryAt(entry.body, "/options/out") ==
+                      EntryAt(entries[index].body, "/options/out");
          });
 }
 
