@@ -128,7 +128,7 @@ Result<Json> ParseTemplate(const TemplateFile& file) {
                       ": the key stands there twice; remove one of them");
     return json;
   } catch (const nlohmann::json::exception& e) {
-    return BadInput(file.where + ": is not valid JSON: " + e.what());
+    return BadInput(file.where + ": is not valid JSON: " + JsonProblem(e));
   }
 }
 

@@ -73,7 +73,7 @@ Result<viz::ReviewContent> ReadContent(const fs::path& results, Console& console
   try {
     TELESTRAIN_RETURN_IF_ERROR(RequireSameEvidence(content.results, results));
   } catch (const nlohmann::json::exception& e) {
-    return BadInput((results / "results.json").string() + ": " + e.what() +
+    return BadInput((results / "results.json").string() + ": " + JsonProblem(e) +
                     "; run 'telestrain report' again");
   }
   for (const char* name : {"results.json", "calibration.json"}) {

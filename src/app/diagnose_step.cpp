@@ -60,7 +60,7 @@ std::vector<Line> ResidualLines(const Diagnosis& diagnosis) {
       {"residuals, RMS of a coordinate", Pixels(summary.rms_per_scalar_px),
        "expected " + Pixels(diagnosis.expected_rms_px), ""},
       {"  over the corners' stated noise", FormatFixed(noise.chi_square.sigma0, 3), "expected 1",
-       p(noise.chi_square.p_too_large) + " of more (chi-square)"},
+       p(noise.chi_square.p_value) + " (chi-square)"},
       {"  normally distributed", "", "", p(noise.normality.p_value) + " (Anderson-Darling)"},
       {"  independent of their neighbours", "", "", p(noise.SmallestSpatialP()) + " (Moran's I)"},
       {"  steady over the images", "", "", p(noise.SmallestTrendP()) + " (trend)"},

@@ -81,12 +81,31 @@ Result<std::map<std::string, std::string>> MadeFrom(const Session& session, cons
   return made_from;
 }
 
+// Noise makes every image another one: equal bytes are a file that was copied or named twice.
+void WarnOfCopies(const Session& session, const std::map<std::string, std::string>& hashes,
+                  Console& console) {
+  std::map<std::string, std::string> first;  // hash -> image
+  std::string example;
+  std::size_t copies = 0;
+  for (const PipeState& state : session.pipe_states) {
+    const auto [at, is_new] = first.emplace(hashes.at(state.image), state.image);
+    if (is_new) continue;
+    if (copies++ == 0) example = "'" + at->second + "' and '" + state.image + "'";
+  }
+  if (copies == 0) return;
+  console.Warn("the pipe images " + example + " have the same bytes" +
+               (copies > 1 ? " (and " + CountText(copies - 1, "more image") + ")" : std::string()) +
+               ": a state was not recorded, or its image was copied over; compare pipe.csv with "
+               "the recordings");
+}
+
 Result<PipeMeasurement> MeasureTable(const Session& session, const fs::path& results,
                                      const PipeOptions& options, Console& console) {
   TELESTRAIN_ASSIGN_OR_RETURN(const ArrayCalibration array, LoadCalibration(session, results));
   TELESTRAIN_ASSIGN_OR_RETURN(const auto made_from, MadeFrom(session, results, options));
   TELESTRAIN_ASSIGN_OR_RETURN(auto hashes, RecordedHashes(results));
-  TELESTRAIN_ASSIGN_OR_RETURN(StrainJournal journal, StrainJournal::Open(results, made_from));
+  WarnOfCopies(session, hashes, console);
+  StrainJournal journal(results, made_from);
   TabledImages images(session, std::move(hashes), journal, console);
   TELESTRAIN_ASSIGN_OR_RETURN(PipeMeasurement measurement,
                               MeasureStream(session, array, options, images));
@@ -109,7 +128,7 @@ Result<PipeMeasurement> MeasureWatched(const Session& described, const fs::path&
   TELESTRAIN_ASSIGN_OR_RETURN(const Session session, WithColumnsOf(choices.folder, described));
   TELESTRAIN_ASSIGN_OR_RETURN(const ArrayCalibration array, LoadCalibration(session, results));
   TELESTRAIN_ASSIGN_OR_RETURN(const auto made_from, MadeFrom(session, results, options));
-  TELESTRAIN_ASSIGN_OR_RETURN(StrainJournal journal, StrainJournal::Open(results, made_from));
+  StrainJournal journal(results, made_from);
   WatchedFolder images(choices, session, journal, console);
   // The first signal ends the watch, with everything written; another one the program.
   bool stopped = false;

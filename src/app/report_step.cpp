@@ -39,7 +39,7 @@ Result<int> SayVerdict(const fs::path& results, Console& console) {
                   (text("verdict") == "-" ? "not decided" : text("verdict")));
     }
   } catch (const nlohmann::json::exception& e) {
-    return BadInput((results / "results.json").string() + ": " + e.what());
+    return BadInput((results / "results.json").string() + ": " + JsonProblem(e));
   }
   return outcome.accepted ? 0 : 1;
 }

@@ -11,6 +11,7 @@
 #include "app/program_record.h"
 #include "base/files.h"
 #include "base/json_file.h"
+#include "base/utf8.h"
 #include "measurement/ruler_acceptance.h"
 #include "session/session_record.h"
 #include "target/image_file.h"
@@ -63,8 +64,8 @@ Status SetAside(const fs::path& path) {
   std::error_code code;
   fs::rename(path, aside, code);
   if (!code) {
-    std::cerr << "the signed " << path.filename().string() << " is now "
-              << aside.filename().string() << '\n';
+    std::cerr << "the signed " << PrintableText(path.filename().string()) << " is now "
+              << PrintableText(aside.filename().string()) << '\n';
     return {};
   }
   return OutputFailed(path.string() + ": is signed and cannot be renamed " +
@@ -208,7 +209,7 @@ Result<Session> RecordedSession(const fs::path& results) {
   try {
     return SessionOfRecord(inputs);
   } catch (const nlohmann::json::exception& e) {
-    return BadInput((results / "inputs.json").string() + ": " + e.what() +
+    return BadInput((results / "inputs.json").string() + ": " + JsonProblem(e) +
                     "; run 'telestrain detect' again");
   }
 }
@@ -220,7 +221,7 @@ Result<std::map<std::string, std::string>> RecordedHashes(const fs::path& result
   try {
     recorded = HashesIn(inputs.at("files"));
   } catch (const nlohmann::json::exception& e) {
-    return BadInput((results / "inputs.json").string() + ": " + e.what() +
+    return BadInput((results / "inputs.json").string() + ": " + JsonProblem(e) +
                     "; run 'telestrain detect' again");
   }
   return recorded;

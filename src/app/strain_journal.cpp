@@ -36,18 +36,14 @@ std::string TemperatureText(const PipeState& table) {
 
 }  // namespace
 
-Result<StrainJournal> StrainJournal::Open(const fs::path& results,
-                                          const std::map<std::string, std::string>& made_from) {
-  StrainJournal journal(results, made_from);
-  TELESTRAIN_RETURN_IF_ERROR(RemoveEndOfMeasure(results));
-  TELESTRAIN_RETURN_IF_ERROR(journal.ReadKnown());
-  return journal;
+StrainJournal::StrainJournal(const fs::path& results,
+                             const std::map<std::string, std::string>& made_from)
+    : results_(results), made_from_(made_from) {
+  ReadKnown();
 }
 
 // A line that was cut short, is of other inputs or has lost its surface ends the list.
-Status StrainJournal::ReadKnown() {
-  std::error_code code;
-  if (!fs::exists(results_ / kRecords, code)) return {};
+void StrainJournal::ReadKnown() {
   std::ifstream file(results_ / kRecords, std::ios::binary);
   for (std::string line; std::getline(file, line) && !file.eof();) {
     auto record = ReadStateRecord(line);
@@ -57,9 +53,12 @@ Status StrainJournal::ReadKnown() {
     known_.push_back(std::move(record).value());
     lines_.push_back(line + '\n');
   }
-  // Of other inputs or options: nothing of it may outlive a reference that cannot be measured.
-  if (known_.empty()) return RemoveOutputsFrom(results_, Step::kMeasure);
-  return {};
+}
+
+// A measurement that fails before its first state takes nothing away.
+Status StrainJournal::RemoveEarlier() {
+  return known_.empty() ? RemoveOutputsFrom(results_, Step::kMeasure)
+                        : RemoveEndOfMeasure(results_);
 }
 
 bool StrainJournal::Fits(const StateRecord& record) const {
@@ -103,7 +102,10 @@ Status StrainJournal::Settle() {
 
 Status StrainJournal::Add(const PipeSequence& sequence, const PipeImage& image,
                           const MeasuredState& state) {
-  if (count_ == 0) reference_sha256_ = image.sha256;
+  if (count_ == 0) {
+    TELESTRAIN_RETURN_IF_ERROR(RemoveEarlier());
+    reference_sha256_ = image.sha256;
+  }
   if (image.known) {
     TELESTRAIN_CHECK(!settled_ && count_ < known_.size(), "a known state after one that is not");
     csv_ += StrainCsvLine(state);

@@ -16,10 +16,11 @@ namespace telestrain {
 // was not, and ends with the bytes of a run that was never ended.
 class StrainJournal {
  public:
-  // Reads what an earlier run left and removes strain.json, which is made from all states.
+  // Reads what an earlier run left; the first Add removes strain.json, which is made from all
+  // states, and the whole of it when it was made from something else.
   // `made_from`: what every state depends on beside the images.
-  static Result<StrainJournal> Open(const std::filesystem::path& results,
-                                    const std::map<std::string, std::string>& made_from);
+  StrainJournal(const std::filesystem::path& results,
+                const std::map<std::string, std::string>& made_from);
 
   // The states of the earlier run that fit `made_from` and each other, the reference first; their
   // images are for the caller to compare. Does not change.
@@ -36,10 +37,8 @@ class StrainJournal {
   Status Finish();
 
  private:
-  StrainJournal(const std::filesystem::path& results,
-                const std::map<std::string, std::string>& made_from)
-      : results_(results), made_from_(made_from) {}
-  Status ReadKnown();
+  void ReadKnown();
+  Status RemoveEarlier();
   bool Fits(const StateRecord& record) const;
   Status Settle();
 

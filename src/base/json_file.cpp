@@ -37,6 +37,13 @@ const nlohmann::ordered_json* TooLargeIn(const nlohmann::ordered_json& json) {
 
 }  // namespace
 
+std::string JsonProblem(const std::exception& e) {
+  const std::string text = e.what();  // "[json.exception.type_error.302] type must be ..."
+  const std::size_t end = text.find("] ");
+  return text.starts_with("[json.exception") && end != std::string::npos ? text.substr(end + 2)
+                                                                         : text;
+}
+
 Status CheckJsonText(std::string_view text, int deepest) {
   const std::size_t zero = text.find('\0');
   if (zero != std::string_view::npos)
@@ -55,7 +62,7 @@ Result<nlohmann::ordered_json> ParseJson(std::string_view text) {
                       FormatShortest(kLargestJsonNumber));
     return json;
   } catch (const nlohmann::json::exception& e) {
-    return BadInput(std::string("is not valid JSON: ") + e.what());
+    return BadInput(std::string("is not valid JSON: ") + JsonProblem(e));
   }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <exception>
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -30,6 +31,9 @@ Result<nlohmann::ordered_json> ParseJson(std::string_view text);
 // what to do; `maker` is the command that makes the file ("telestrain calibrate").
 Result<nlohmann::ordered_json> ReadJson(const std::filesystem::path& path,
                                         const std::string& schema, const std::string& maker);
+
+// What an exception of the JSON library says, without the tag that it puts before.
+std::string JsonProblem(const std::exception& e);
 
 // Two-space indented text with a final line feed; doubles read back to the same value, bytes that
 // are not UTF-8 as U+FFFD.

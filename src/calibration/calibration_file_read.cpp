@@ -76,7 +76,7 @@ Result<ArrayCalibration> ReadArrayCalibration(const std::filesystem::path& path)
   try {
     return ArrayFromJson(json);
   } catch (const nlohmann::json::exception& e) {
-    return BadInput(path.string() + ": " + e.what() +
+    return BadInput(path.string() + ": " + JsonProblem(e) +
                     "; make the file again with 'telestrain calibrate'");
   }
 }

@@ -138,7 +138,7 @@ Result<CalibrationRecord> ReadCalibrationRecord(const Session& session, const fs
     if (!ReadPoses(json, record))
       return Unfit(results / "residuals.csv", "was not made together with calibration.json");
   } catch (const nlohmann::json::exception& e) {
-    return Unfit(path, e.what());
+    return Unfit(path, JsonProblem(e));
   }
   return record;
 }

@@ -192,7 +192,7 @@ Result<StateRecord> ReadStateRecord(const std::string& line) {
     });
     return record;
   } catch (const nlohmann::json::exception& e) {
-    return BadInput(std::string("no whole record: ") + e.what());
+    return BadInput(std::string("no whole record: ") + JsonProblem(e));
   }
 }
 

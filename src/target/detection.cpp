@@ -123,7 +123,7 @@ Result<std::map<std::string, std::string>> ReadReasons(const fs::path& results) 
           board.at("rejected_because").get<std::string>();
     return reasons;
   } catch (const nlohmann::json::exception& e) {
-    return BadInput(path.string() + ": " + e.what() + "; run 'telestrain detect' again");
+    return BadInput(path.string() + ": " + JsonProblem(e) + "; run 'telestrain detect' again");
   }
 }
 
@@ -230,7 +230,7 @@ Result<std::vector<CrossObservation>> ReadDetectedCrosses(const fs::path& result
     for (const Json& item : json.at("crosses")) crosses.push_back(CrossFromJson(item));
     return crosses;
   } catch (const nlohmann::json::exception& e) {
-    return BadInput((results / "detection.json").string() + ": " + e.what() +
+    return BadInput((results / "detection.json").string() + ": " + JsonProblem(e) +
                     "; run 'telestrain detect' again");
   }
 }

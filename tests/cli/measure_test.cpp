@@ -131,6 +131,26 @@ TEST_F(Measure, AStateOfOtherInputsIsMeasuredAgain) {
   EXPECT_EQ(DifferingFiles(fresh, out), std::vector<std::string>{"audit.jsonl"});
 }
 
+TEST_F(Measure, AFailureBeforeTheFirstStateTakesNothingAway) {
+  MakeStates(3);
+  const fs::path out = Calibrated("out"), kept = scratch() / "kept";
+  MustMeasure(out);
+  ASSERT_EQ(RunTelestrain({"report", out.string()}).exit_code, 1);  // no ruler was verified
+  fs::copy(out, kept, fs::copy_options::recursive);
+  auto arguments = MeasureInto(out);
+  arguments.insert(arguments.end(), {"--subset-px", "301"});
+  const ProgramRun run = RunTelestrain(arguments);
+  EXPECT_EQ(run.exit_code, 4) << run.err;
+  EXPECT_EQ(DifferingFiles(kept, out), std::vector<std::string>());
+}
+
+TEST_F(Measure, ACopiedImageIsToldOf) {
+  MakeStates(5);
+  const std::string err = RunTelestrain(MeasureInto(Calibrated("out"))).err;
+  EXPECT_TRUE(Holds(err, "'pipe/state_100.png' and 'pipe/state_103.png' have the same bytes (and"))
+      << err;
+}
+
 TEST_F(Measure, ADamagedSurfaceIsMadeAgain) {
   MakeStates(3);
   const fs::path whole = Calibrated("whole"), damaged = Calibrated("damaged");

@@ -63,6 +63,11 @@ TEST(JsonFileTest, WhatStandsBehindAZeroByteIsNotOverlooked) {
             "is not valid JSON: the byte at offset 3 is zero");
 }
 
+TEST(JsonFileTest, TheLibrarysTagIsNotShown) {
+  EXPECT_EQ(ParseJson("{\"a\": }").error().message.find("is not valid JSON: parse error at line 1"),
+            0u);
+}
+
 TEST(JsonFileTest, NumbersOfWhichProductsWouldOverflowAreRefused) {
   EXPECT_EQ(ParseJson("{\"a\": [1e100, -2e100]}").error().message,
             "the number -2e+100 is larger than any that is measured, 1e+100");
