@@ -40,9 +40,9 @@ struct ReportScope {
 
 // Reads inputs.json (must be there) and what exists of detection.json, calibration.json,
 // comparison.json, ruler.json and strain.json; writes results.json and dcc.xml. Once everything is
-// read and before anything is written, `before_writing` is called. Fails with kBadInput (a file is
-// malformed; `earlier` cannot be read or compared) before that, with what it says, or
-// kOutputFailed.
+// read and before anything is written, `before_writing` is called; what it fails with is returned.
+// Fails with kBadInput (a file is malformed; `earlier` cannot be read or compared) before that
+// call, with kOutputFailed after it.
 Result<Outcome> MakeResults(
     const std::filesystem::path& results, const ReportScope& scope = {},
     const std::function<Status()>& before_writing = [] { return Status(); });

@@ -219,6 +219,14 @@ void AddPipe(const Json& strain, ResultsDraft& draft) {
   draft.AddTable(std::move(table));
 }
 
+// What the first page has to say of the recording.
+void AddDoubts(const Json& strain, ResultsDraft& draft) {
+  std::vector<Json> sentences;
+  for (const Json& doubt : ListAt(strain, "/doubts"))
+    if (doubt.is_string()) sentences.push_back(PhraseOfText(doubt.get<std::string>()));
+  if (!sentences.empty()) draft.sentences["doubts"] = JoinPhrases(sentences);
+}
+
 }  // namespace
 
 void AddStrain(const Json& strain, ResultsDraft& draft) {
@@ -227,6 +235,7 @@ void AddStrain(const Json& strain, ResultsDraft& draft) {
   AddComparison(strain, draft);
   draft.measured["sequence"] = false;
   if (!measured) return;
+  AddDoubts(strain, draft);
   AddStates(strain, draft);
   AddBeam(strain, draft);
   AddRejectedPoints(strain, draft);

@@ -28,6 +28,12 @@ std::vector<NamedTemplate> Listed(const TemplateFolder& folder, const std::strin
   return list;
 }
 
+void CollectPictures(const Json& blocks, std::set<std::string>& pictures) {
+  if (TextAt(blocks, "/type") == "picture") pictures.insert(TextAt(blocks, "/file"));
+  if (!blocks.is_structured()) return;
+  for (const Json& block : blocks) CollectPictures(block, pictures);
+}
+
 }  // namespace
 
 Result<TemplateList> ListTemplates(const std::filesystem::path& folder) {
@@ -42,16 +48,6 @@ Result<TemplateList> ListTemplates(const std::filesystem::path& folder) {
             [](const NamedTemplate& a, const NamedTemplate& b) { return a.name < b.name; });
   return list;
 }
-
-namespace {
-
-void CollectPictures(const Json& blocks, std::set<std::string>& pictures) {
-  if (TextAt(blocks, "/type") == "picture") pictures.insert(TextAt(blocks, "/file"));
-  if (!blocks.is_structured()) return;
-  for (const Json& block : blocks) CollectPictures(block, pictures);
-}
-
-}  // namespace
 
 Result<LayoutScope> ScopeOfLayout(const ReportOptions& options) {
   TELESTRAIN_ASSIGN_OR_RETURN(

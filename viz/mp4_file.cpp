@@ -138,7 +138,7 @@ class Mp4File : public VideoFile {
   // FFmpeg takes what stands before a colon for a protocol.
   Status MakePart() {
     static std::atomic<int> films = 0;
-    const NoSignalNow whole;  // what is to be done at one reads the name
+    const NoSignalNow whole;  // what is done at a signal reads part_
     std::error_code code;
     part_ = TemporaryFor(fs::absolute(path_, code), "." + std::to_string(films++) + ".mp4");
     const Descriptor file{

@@ -118,16 +118,21 @@ Status CheckStory(const std::vector<AuditEntry>& entries) {
   return {};
 }
 
+// Where `render` drew pictures; empty for a film, which takes nothing away and goes for nothing.
+std::string DrawnInto(const AuditEntry& entry) {
+  const Json& out = EntryAt(entry.body, "/options/out");
+  if (entry.type != "render" || !out.is_string()) return "";
+  return out == "" ? "RESULTS/pictures" : out.get<std::string>();
+}
+
 // Whether the pictures of an entry gave way to a whole set that was drawn later; a single view
 // takes no other away.
 bool IsDrawnAnew(const std::vector<AuditEntry>& entries, std::size_t index) {
+  const std::string place = DrawnInto(entries[index]);
   const auto after = entries.begin() + static_cast<std::ptrdiff_t>(index) + 1;
-  return entries[index].type == "render" &&
-         std::any_of(after, entries.end(), [&](const AuditEntry& entry) {
-           return entry.type == "render" && TextAt(entry.body, "/options/view").empty() &&
-                  EntryAt(entry.body, "/options/out") ==
-                      EntryAt(entries[index].body, "/options/out");
-         });
+  return !place.empty() && std::any_of(after, entries.end(), [&](const AuditEntry& entry) {
+    return DrawnInto(entry) == place && TextAt(entry.body, "/options/view").empty();
+  });
 }
 
 bool IsAsMade(const fs::path& file, const std::string& path, const TrailFile& made) {

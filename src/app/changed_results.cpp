@@ -39,13 +39,19 @@ std::vector<std::string> ChangesSinceRecorded(const fs::path& results,
 }
 
 Status RequireAsRecorded(const fs::path& results) {
-  std::vector<std::string> names = kMeasuredFiles;
-  names.emplace_back("results.json");
-  const auto changes = ChangesSinceRecorded(results, names);
-  if (changes.empty()) return {};
-  return BadInput(changes.front() +
-                  "; put back the file that it wrote, or do that step and those " +
-                  "after it again");
+  const fs::path trail = results / "audit.jsonl";
+  std::error_code code;
+  if (!fs::exists(trail, code)) return {};
+  TELESTRAIN_ASSIGN_OR_RETURN(const std::string text, ReadFile(trail, kMostLogBytes));
+  TELESTRAIN_ASSIGN_OR_RETURN(const auto entries, ReadAuditTrail(trail.string(), text));
+  Status fits = CheckPaths(entries);
+  if (fits) {
+    const auto files = CheckOutputs(entries, results);
+    if (!files) fits = files.error();
+  }
+  if (fits) return {};
+  return BadInput(results.string() + ": " + fits.error().message +
+                  "; put that file back, or do that step and those after it again");
 }
 
 }  // namespace telestrain

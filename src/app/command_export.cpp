@@ -95,6 +95,13 @@ class ExportCommand : public Command {
   }
 
   Status WriteCertificate(Console& console) const {
+    std::error_code unreadable;
+    if (fs::exists(results_, unreadable) &&
+        !fs::exists(fs::path(results_) / "audit.jsonl", unreadable))
+      return BadInput(
+          results_ +
+          ": has no audit.jsonl, so that nothing tells whether its files are as they "
+          "were measured; put it back, or make the results again with 'telestrain run'");
     TELESTRAIN_RETURN_IF_ERROR(RequireAsRecorded(results_));
     TELESTRAIN_RETURN_IF_ERROR(ExportCertificate(results_, certificate_, schema_));
     const std::string checked = schema_.empty() ? "" : ", valid against dcc.xsd in " + schema_;

@@ -67,7 +67,11 @@ Result<std::pair<std::string, std::string>> DocumentEntry(const std::string& tex
       key.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_") != std::string::npos)
     return WrongUsage("--document '" + text +
                       "': KEY=TEXT is wanted, with a key of small letters, digits and underscores");
-  return std::pair(key, text.substr(end + 1));
+  std::string value = text.substr(end + 1);
+  if (!IsDocumentEntry(key, value))
+    return WrongUsage("--document '" + text +
+                      "': a date after ISO 8601 is wanted, such as 2026-01-17");
+  return std::pair(key, std::move(value));
 }
 
 }  // namespace telestrain

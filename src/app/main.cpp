@@ -42,7 +42,7 @@ int RunCommand(Command& command, const CLI::App& verb, const InstrumentLog& log,
   run.verb = command.Name();
   run.results = ResultsOf(verb);
   std::optional<AtSignal> at_end(std::in_place,
-                                 [&](int signal) { return EndLogged(log, run, signal); });
+                                 [&log, run](int signal) { return EndLogged(log, run, signal); });
   const Result<int> result = RunGuarded(command, console);
   run.exit_code = result ? *result : Report(command.Name(), result.error(), console);
   // A reader that has gone away wants no more; what was made is made.

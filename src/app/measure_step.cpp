@@ -81,30 +81,11 @@ Result<std::map<std::string, std::string>> MadeFrom(const Session& session, cons
   return made_from;
 }
 
-// Noise makes every image another one: equal bytes are a file that was copied or named twice.
-void WarnOfCopies(const Session& session, const std::map<std::string, std::string>& hashes,
-                  Console& console) {
-  std::map<std::string, std::string> first;  // hash -> image
-  std::string example;
-  std::size_t copies = 0;
-  for (const PipeState& state : session.pipe_states) {
-    const auto [at, is_new] = first.emplace(hashes.at(state.image), state.image);
-    if (is_new) continue;
-    if (copies++ == 0) example = "'" + at->second + "' and '" + state.image + "'";
-  }
-  if (copies == 0) return;
-  console.Warn("the pipe images " + example + " have the same bytes" +
-               (copies > 1 ? " (and " + CountText(copies - 1, "more image") + ")" : std::string()) +
-               ": a state was not recorded, or its image was copied over; compare pipe.csv with "
-               "the recordings");
-}
-
 Result<PipeMeasurement> MeasureTable(const Session& session, const fs::path& results,
                                      const PipeOptions& options, Console& console) {
   TELESTRAIN_ASSIGN_OR_RETURN(const ArrayCalibration array, LoadCalibration(session, results));
   TELESTRAIN_ASSIGN_OR_RETURN(const auto made_from, MadeFrom(session, results, options));
   TELESTRAIN_ASSIGN_OR_RETURN(auto hashes, RecordedHashes(results));
-  WarnOfCopies(session, hashes, console);
   StrainJournal journal(results, made_from);
   TabledImages images(session, std::move(hashes), journal, console);
   TELESTRAIN_ASSIGN_OR_RETURN(PipeMeasurement measurement,
@@ -142,16 +123,46 @@ Result<PipeMeasurement> MeasureWatched(const Session& described, const fs::path&
   return measurement;
 }
 
+// What is no error, and what whoever signs has to know: told at once, and kept for the report.
+struct Doubts {
+  Console& console;
+  std::vector<std::string> texts;
+
+  void Doubt(const std::string& text) {
+    console.Warn(text);
+    texts.push_back(text);
+  }
+};
+
+// Noise makes every image another one: equal bytes are a file that was copied or named twice.
+void DoubtCopies(const std::vector<MeasuredState>& states,
+                 const std::map<std::string, std::string>& hashes, Doubts& doubts) {
+  std::map<std::string, std::string> first;  // hash -> image
+  std::string example;
+  std::size_t copies = 0;
+  for (const MeasuredState& state : states) {
+    const std::string& image = state.table.image;
+    const auto hash = hashes.find(image);
+    if (hash == hashes.end()) continue;  // a watched image
+    const auto [at, is_new] = first.emplace(hash->second, image);
+    if (!is_new && copies++ == 0) example = at->second + " and " + image;
+  }
+  if (copies == 0) return;
+  doubts.Doubt(
+      "The pipe images " + example + " have the same bytes" +
+      (copies > 1 ? ", and " + CountText(copies - 1, "more image") + " too" : std::string()) +
+      ": a state was not recorded, or its image was copied over.");
+}
+
 // Strain follows from the pipe as measured; another pipe than is meant is still another one.
-void WarnOfOtherDiameter(const Session& session, const PipeMeasurement& measurement,
-                         Console& console) {
+void DoubtDiameter(const Session& session, const PipeMeasurement& measurement, Doubts& doubts) {
   constexpr double kMost = 0.03;  // tubes keep to a few tenths of a per cent
   const double nominal_mm = session.pipe.outer_diameter_mm,
                found_mm = measurement.geometry.diameter_mm;
   if (nominal_mm > 0 && std::abs(found_mm / nominal_mm - 1) > kMost)
-    console.Warn("the pipe's diameter is " + FormatFixed(found_mm, 3) +
-                 " mm as measured, [pipe] outer_diameter_mm of session.toml says " +
-                 FormatShortest(nominal_mm) + " mm: is it the right pipe, and the right number?");
+    doubts.Doubt("The pipe's diameter is " + FormatFixed(found_mm, 3) + " mm as measured and " +
+                 FormatShortest(nominal_mm) +
+                 " mm in session.toml: another pipe, or a wrong number.");
 }
 
 Status WriteMeasurement(const Session& session, const PipeMeasurement& measurement,
@@ -159,14 +170,18 @@ Status WriteMeasurement(const Session& session, const PipeMeasurement& measureme
   TELESTRAIN_ASSIGN_OR_RETURN(
       const auto made_from,
       HashesOf(results, {"inputs.json", "calibration.json", "strain_states.jsonl"}));
+  TELESTRAIN_ASSIGN_OR_RETURN(const auto hashes, RecordedHashes(results));
+  Doubts doubts{console, {}};
+  DoubtCopies(measurement.states, hashes, doubts);
+  DoubtDiameter(session, measurement, doubts);
   TELESTRAIN_RETURN_IF_ERROR(WriteFileAtomically(results / "strain_components.csv",
                                                  StrainComponentsCsv(measurement.states)));
-  TELESTRAIN_RETURN_IF_ERROR(
-      WriteJson(results / "strain.json", StrainJson(measurement, made_from)));
+  auto json = StrainJson(measurement, made_from);
+  json["doubts"] = doubts.texts;
+  TELESTRAIN_RETURN_IF_ERROR(WriteJson(results / "strain.json", json));
   console.Say("measure    " + CountText(measurement.states.size(), "state") + ", " +
               CountText(measurement.grid.points.size(), "surface point") + ", pipe diameter " +
               FormatFixed(measurement.geometry.diameter_mm, 4) + " mm");
-  WarnOfOtherDiameter(session, measurement, console);
   return {};
 }
 

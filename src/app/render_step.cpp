@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <map>
 
 #include "app/results_folder.h"
@@ -67,8 +68,10 @@ Status RenderStep(const fs::path& results, const RenderOptions& options, const f
   const fs::path folder = is_file ? out.parent_path() : out.empty() ? results / "pictures" : out;
   const WrittenFiles written(folder.empty() ? "." : folder);
   const Status rendered = RenderResults(results, options, console, out);
-  // A report stays as long as the pictures in it are the ones beside it.
-  if (before != ReportedPictures(results))
+  // A report stays as long as the pictures in it are the ones beside it; those that it lacks may
+  // come.
+  const auto after = ReportedPictures(results);
+  if (!std::includes(after.begin(), after.end(), before.begin(), before.end()))
     TELESTRAIN_RETURN_IF_ERROR(RemoveOutputsFrom(results, Step::kReport));
   TELESTRAIN_RETURN_IF_ERROR(rendered);
   console.Say("render     pictures in " + (out.empty() ? results / "pictures" : out).string());

@@ -84,7 +84,8 @@ StepRecord ResultsRecord(const ReportChoices& choices) {
 }
 
 // Every file of the user's templates shapes the report.
-StepRecord ReportRecord(const ReportChoices& choices, const std::set<std::string>& pictures) {
+StepRecord ReportRecord(const fs::path& results, const ReportChoices& choices,
+                        const std::set<std::string>& pictures) {
   Json options = OptionsOfResults(choices);
   options["language"] = choices.language;
   options["archive-level"] = choices.level == ArchiveLevel::k1b ? "1b" : "3a";
@@ -97,9 +98,26 @@ StepRecord ReportRecord(const ReportChoices& choices, const std::set<std::string
     if (entry->path().extension() == ".json" || entry->path().extension() == ".png")
       record.inputs_elsewhere.push_back(entry->path());
   std::sort(record.inputs_elsewhere.begin(), record.inputs_elsewhere.end());
-  for (const std::string& picture : pictures) record.inputs.push_back("pictures/" + picture);
+  // A picture that the layout names and that no step drew is the user's own.
+  for (const std::string& picture : pictures)
+    if (viz::IsStandardPicture(picture))
+      record.inputs.push_back("pictures/" + picture);
+    else if (fs::exists(results / "pictures" / picture, code))
+      record.inputs_elsewhere.push_back(results / "pictures" / picture);
   std::sort(record.inputs.begin(), record.inputs.end());
   return record;
+}
+
+// A report may be made without pictures; nobody should find that out when reading it.
+void WarnOfNoPictures(const fs::path& results, const std::set<std::string>& pictures,
+                      Console& console) {
+  std::error_code code;
+  const bool has_one = std::any_of(pictures.begin(), pictures.end(), [&](const auto& picture) {
+    return fs::exists(results / "pictures" / picture, code);
+  });
+  if (!pictures.empty() && !has_one)
+    console.Warn("the report shows no pictures, since none are drawn; run 'telestrain render " +
+                 results.string() + "', then this step again");
 }
 
 std::string PlaceOfReport(const fs::path& results) {
@@ -113,12 +131,12 @@ Result<bool> ReportIsKept(const fs::path& results, const ReportChoices& choices,
                           const std::set<std::string>& pictures, Console& console) {
   TELESTRAIN_ASSIGN_OR_RETURN(const bool decided, IsDone(results, ResultsRecord(choices)));
   if (!decided) return false;
-  TELESTRAIN_ASSIGN_OR_RETURN(bool done, IsDone(results, ReportRecord(choices, pictures)));
+  TELESTRAIN_ASSIGN_OR_RETURN(bool done, IsDone(results, ReportRecord(results, choices, pictures)));
   if (!done) {
     std::set<std::string> always;
     for (const viz::PictureKind& kind : viz::PictureKinds())
       if (kind.in_report) always.insert(std::string(kind.name) + ".png");
-    TELESTRAIN_ASSIGN_OR_RETURN(done, IsDone(results, ReportRecord(choices, always)));
+    TELESTRAIN_ASSIGN_OR_RETURN(done, IsDone(results, ReportRecord(results, choices, always)));
   }
   if (done)
     console.Say("report     " + PlaceOfReport(results) +
@@ -151,12 +169,13 @@ Result<int> ReportStep(const fs::path& results, const ReportChoices& choices, Co
   }
   for (const std::string& change : ChangesSinceRecorded(results, kMeasuredFiles))
     console.Warn(change + "; 'telestrain audit verify' will fail");
+  WarnOfNoPictures(results, layout.pictures, console);
   // What cannot be read or compared must be known before an older report goes.
   TELESTRAIN_RETURN_IF_ERROR(MakeResults(
       results, layout.scope, [&] { return RemoveOutputsFrom(results, Step::kReport); }));
   TELESTRAIN_RETURN_IF_ERROR(RecordStep(results, ResultsRecord(choices)));
   TELESTRAIN_RETURN_IF_ERROR(WriteReport(results, options));
-  TELESTRAIN_RETURN_IF_ERROR(RecordStep(results, ReportRecord(choices, layout.pictures)));
+  TELESTRAIN_RETURN_IF_ERROR(RecordStep(results, ReportRecord(results, choices, layout.pictures)));
   console.Say("report     " + PlaceOfReport(results));
   if (!untranslated.empty())
     console.Note("  printed in English for want of a translation: " +

@@ -156,10 +156,12 @@ Result<int> SignStep(const SignArguments& arguments, Console& console) {
   const fs::path folder = fs::absolute(target).parent_path();
   // Known before a password is asked for, which may take its time and keeps nobody out.
   if (const auto is_free = ResultsLock::Take(folder); !is_free) return is_free.error();
-  TELESTRAIN_RETURN_IF_ERROR(RequireAsRecorded(fs::absolute(arguments.report).parent_path()));
+  const fs::path results = fs::absolute(arguments.report).parent_path();
+  TELESTRAIN_RETURN_IF_ERROR(RequireAsRecorded(results));
   TELESTRAIN_ASSIGN_OR_RETURN(const SigningKey key, KeyOf(arguments));
   // Held until the trail tells of the signature: nobody signs what another is about to replace.
   TELESTRAIN_ASSIGN_OR_RETURN(const ResultsLock lock, ResultsLock::Take(folder));
+  TELESTRAIN_RETURN_IF_ERROR(RequireAsRecorded(results));
   TELESTRAIN_ASSIGN_OR_RETURN(auto trail, TrailBeside(fs::absolute(target)));
   TELESTRAIN_ASSIGN_OR_RETURN(const std::string before,
                               ReadFile(arguments.report, kMostReportBytes));

@@ -33,7 +33,8 @@ Status RecordStep(const std::filesystem::path& results, const StepRecord& record
 
 // Whether the trail says that the step was done, by this program with these options and inputs, its
 // files lie there as it made them, and no step before it in the chain was done since. A report may
-// have been signed since. Fails as RecordStep does.
+// have been signed since, and pictures drawn; a rendering counts that is not the latest. Fails as
+// RecordStep does.
 Result<bool> IsDone(const std::filesystem::path& results, const StepRecord& record);
 
 // Whether IsDone; then says so in the step's line.

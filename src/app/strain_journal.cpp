@@ -112,9 +112,6 @@ Status StrainJournal::Add(const PipeSequence& sequence, const PipeImage& image,
     ++count_;
     return {};
   }
-  if (count_ == kMostTableRows)
-    return BadInput((results_ / kTable).string() + ": has " + std::to_string(count_) +
-                    " states, the limit; begin a results folder and a session for the others");
   if (!settled_) TELESTRAIN_RETURN_IF_ERROR(Settle());
   const std::string surface = SurfaceVtp(sequence.grid(), state.strain, &sequence.geometry());
   StateRecord record{state.table.image, made_from_, Sha256Hex(surface), state};

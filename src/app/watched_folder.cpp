@@ -8,6 +8,7 @@
 
 #include "base/files.h"
 #include "base/numbers.h"
+#include "base/utf8.h"
 #include "session/inside_folder.h"
 #include "session/pipe_table.h"
 #include "target/image_file.h"
@@ -54,9 +55,8 @@ Result<std::optional<PipeImage>> WatchedFolder::Next() {
   }
   const auto start = Clock::now();
   for (; !stop_; std::this_thread::sleep_for(kPause)) {
-    if (choices_.until > 0 && kept_ >= choices_.until) break;
-    // The states under way may be enough.
-    if (choices_.until > 0 && handed_out_ - skipped_ >= choices_.until) continue;
+    if (kept_ >= most_) break;
+    if (handed_out_ - skipped_ >= most_) continue;  // the states under way may be enough
     TELESTRAIN_ASSIGN_OR_RETURN(const bool whole, ReadTable());
     LookAtFiles();
     if (!whole) continue;
@@ -73,8 +73,8 @@ Result<std::optional<PipeImage>> WatchedFolder::Next() {
 // Nothing when the next record's image is not there as it was.
 Result<std::optional<PipeImage>> WatchedFolder::NextKnown() {
   const auto index = static_cast<std::size_t>(handed_out_);
-  const bool enough = choices_.until > 0 && handed_out_ >= choices_.until;
-  if (index >= journal_.known().size() || enough || stop_) return std::optional<PipeImage>{};
+  if (index >= journal_.known().size() || handed_out_ >= most_ || stop_)
+    return std::optional<PipeImage>{};
   TELESTRAIN_RETURN_IF_ERROR(ReadTable());
   const std::string name = fs::path(journal_.known()[index].image).filename().string();
   const auto bytes = ReadFile(choices_.folder / name, kMostImageBytes);
@@ -172,6 +172,9 @@ std::optional<PipeImage> WatchedFolder::Decode(const std::string& name, File& fi
     if (file.bad) console_.Note("  not used: " + error.message);
     return std::optional<PipeImage>{};
   };
+  if (!IsValidUtf8(name))
+    return complain(BadInput(PrintableText(path.string()) +
+                             ": its name is not UTF-8, so that no table can name it; rename it"));
   if (const Status inside = StaysInside(path); !inside) return complain(inside.error());
   const auto bytes = ReadFile(path, kMostImageBytes);
   if (!bytes) return complain(bytes.error());
@@ -197,7 +200,9 @@ PipeState WatchedFolder::RowOf(const std::string& name) const {
 Status WatchedFolder::Keep(const PipeSequence& sequence, const PipeImage& image,
                            const MeasuredState& state, double spent_ms) {
   TELESTRAIN_RETURN_IF_ERROR(journal_.Add(sequence, image, state));
-  ++kept_;
+  if (++kept_ == static_cast<int>(kMostTableRows))
+    console_.Note("  the watch ends with " + std::to_string(kMostTableRows) +
+                  " states, the limit of one results folder; begin another for the next images");
   const StateStrain& strain = state.strain;
   const auto local = [&](std::size_t group) {
     return group < strain.local_axial_strain.size()

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <filesystem>
@@ -9,6 +10,7 @@
 
 #include "app/strain_journal.h"
 #include "base/console.h"
+#include "base/file_limits.h"
 #include "session/session.h"
 
 namespace telestrain {
@@ -30,7 +32,12 @@ class WatchedFolder : public PipeStream {
  public:
   WatchedFolder(const WatchChoices& choices, const Session& session, StrainJournal& journal,
                 Console& console)
-      : choices_(choices), session_(session), journal_(journal), console_(console) {}
+      : choices_(choices),
+        most_(choices.until > 0 ? std::min(choices.until, static_cast<int>(kMostTableRows))
+                                : static_cast<int>(kMostTableRows)),
+        session_(session),
+        journal_(journal),
+        console_(console) {}
 
   Result<std::optional<PipeImage>> Next() override;
   // Prints the state.
@@ -63,6 +70,7 @@ class WatchedFolder : public PipeStream {
   void SayThatItWaits(const std::string& name);
 
   const WatchChoices choices_;
+  const int most_;  // states
   const Session& session_;
   StrainJournal& journal_;
   Console& console_;

@@ -1,5 +1,6 @@
 #include "base/parallel.h"
 
+#include <openssl/crypto.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -166,6 +167,8 @@ class ThreadPool {
 // that it does not have.
 ThreadPool& Pool() {
   static ThreadPool* const pool = [] {
+    // OpenSSL's end, which takes what it keeps of every thread, comes after that of the threads.
+    ::OPENSSL_init_crypto(0, nullptr);
     auto* made = new ThreadPool;
     std::atexit([] {
       if (Pool().HasItsThreads()) delete &Pool();

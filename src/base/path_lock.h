@@ -14,7 +14,7 @@ namespace telestrain {
 class PathLock {
  public:
   // Waits while another holds it. A file that does not exist is made; a folder must exist. Fails
-  // (kOutputFailed) with the path, the reason and `remedy`.
+  // (kOutputFailed) with the path and the reason, and with `remedy` when another holds it.
   static Result<PathLock> Take(const std::filesystem::path& path, const std::string& remedy);
   // Does not wait: fails (kOutputFailed) when another holds it, with the number of that process
   // where the system tells it.

@@ -8,8 +8,8 @@ namespace telestrain {
 
 // What the program does when the person or the system ends it: SIGINT (Ctrl-C), SIGTERM, SIGHUP.
 // A thread waits for them, so that anything may be done then; no file is being written at that
-// moment, unless the disk hangs for 5 s. The process ends with 128 + the signal's number, 5 s later
-// at the latest. A signal that whoever started the
+// moment, unless the disk hangs for 5 s. The process ends with 128 + the signal's number: after
+// those 5 s at the latest, and 5 s for what is to be done. A signal that whoever started the
 // program had it ignore (nohup) stays ignored.
 
 // To be called once, first of all in main, before there is another thread. Also: a reader of stdout

@@ -88,9 +88,9 @@ class StreamMeasurement {
     const Status ended = TakeAll();
     if (!ended) return ended.error();
     if (!sequence_)
-      return EstimationFailed(
-          "no pipe image could serve as the reference; the first sound one "
-          "does");
+      return EstimationFailed(came_ ? "no pipe image could serve as the reference; the first sound "
+                                      "one does"
+                                    : "no pipe image came before the end: nothing was measured");
     return sequence_->Summary(std::move(states_));
   }
 
@@ -106,6 +106,7 @@ class StreamMeasurement {
     for (;;) {
       TELESTRAIN_ASSIGN_OR_RETURN(std::optional<PipeImage> image, waiting.get());
       if (!image) return {};
+      came_ = true;
       waiting = Fetch();
       const Status taken = Take(*image);
       if (!taken && !stream_.Skip(taken.error())) return taken;
@@ -146,6 +147,7 @@ class StreamMeasurement {
   const ArrayCalibration& array_;
   const PipeOptions& options_;
   PipeStream& stream_;
+  bool came_ = false;  // an image
   std::optional<PipeSequence> sequence_;
   std::vector<MeasuredState> states_;
 };

@@ -156,6 +156,10 @@ struct Session {
   std::vector<std::string> Groups() const;
 };
 
+// Whether [document] may say this: any text, but a date after ISO 8601 or nothing under the keys
+// that other programs read as one.
+bool IsDocumentEntry(const std::string& key, const std::string& text);
+
 // Reads and checks session.toml, calibration.csv, ruler.csv and pipe.csv, and that every image is
 // there (those of the target only unless their corners are given). Does not decode images. Fails
 // (kBadInput) with file, line, what was found and the remedy.

@@ -195,7 +195,7 @@ FieldReader DocumentTable(std::map<std::string, std::string>& document) {
             for (const TomlNode& entry : node.children) {
               if (entry.kind == TomlNode::Kind::kTable || entry.kind == TomlNode::Kind::kArray)
                 return WrongValue(entry, "a text, number, truth value or date");
-              if (IsDateKey(entry.key) && !entry.text.empty() && !IsIsoDate(entry.text))
+              if (!IsDocumentEntry(entry.key, entry.text))
                 return WrongValue(entry, "a date after ISO 8601 such as \"2026-01-17\"");
               document[entry.key] = entry.text;
             }
@@ -221,6 +221,10 @@ Status CheckBoards(const TomlNode& root, const std::vector<ViewEntry>& entries,
 }
 
 }  // namespace
+
+bool IsDocumentEntry(const std::string& key, const std::string& text) {
+  return !IsDateKey(key) || text.empty() || IsIsoDate(text);
+}
 
 Result<Session> ReadSessionToml(const std::filesystem::path& path) {
   std::error_code code;

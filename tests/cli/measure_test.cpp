@@ -52,8 +52,11 @@ class Measure : public SessionCopy {
       table << name << ",1," << i << reading << reading << reading << reading << '\n';
     }
   }
-  std::vector<std::string> MeasureInto(const fs::path& out) const {
-    return {"measure", session().string(), "--out", out.string()};
+  std::vector<std::string> MeasureInto(const fs::path& out,
+                                       const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> words{"measure", session().string(), "--out", out.string()};
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
   }
   void MustMeasure(const fs::path& out) const {
     const ProgramRun run = RunTelestrain(MeasureInto(out));
@@ -121,9 +124,7 @@ TEST_F(Measure, AStateOfOtherInputsIsMeasuredAgain) {
   const fs::path out = Calibrated("out"), fresh = Calibrated("fresh");
   MustMeasure(out);
   const std::string before = ReadAll(out / "strain.csv");
-  const std::vector<std::string> coarse{"measure",    session().string(), "--out",
-                                        out.string(), "--subset-px",      "41"};
-  ASSERT_EQ(RunTelestrain(coarse).exit_code, 0);
+  ASSERT_EQ(RunTelestrain(MeasureInto(out, {"--subset-px", "41"})).exit_code, 0);
   EXPECT_NE(ReadAll(out / "strain.csv"), before);
   MustMeasure(out);
   MustMeasure(fresh);
@@ -137,9 +138,7 @@ TEST_F(Measure, AFailureBeforeTheFirstStateTakesNothingAway) {
   MustMeasure(out);
   ASSERT_EQ(RunTelestrain({"report", out.string()}).exit_code, 1);  // no ruler was verified
   fs::copy(out, kept, fs::copy_options::recursive);
-  auto arguments = MeasureInto(out);
-  arguments.insert(arguments.end(), {"--subset-px", "301"});
-  const ProgramRun run = RunTelestrain(arguments);
+  const ProgramRun run = RunTelestrain(MeasureInto(out, {"--subset-px", "301"}));
   EXPECT_EQ(run.exit_code, 4) << run.err;
   EXPECT_EQ(DifferingFiles(kept, out), std::vector<std::string>());
 }
@@ -147,7 +146,7 @@ TEST_F(Measure, AFailureBeforeTheFirstStateTakesNothingAway) {
 TEST_F(Measure, ACopiedImageIsToldOf) {
   MakeStates(5);
   const std::string err = RunTelestrain(MeasureInto(Calibrated("out"))).err;
-  EXPECT_TRUE(Holds(err, "'pipe/state_100.png' and 'pipe/state_103.png' have the same bytes (and"))
+  EXPECT_TRUE(Holds(err, "pipe/state_100.png and pipe/state_103.png have the same bytes, and 1"))
       << err;
 }
 
@@ -163,6 +162,9 @@ TEST_F(Measure, ADamagedSurfaceIsMadeAgain) {
 
 // 27 more images are 34 MB, the points of 27 more states 1.5 MB.
 TEST_F(Measure, MemoryDoesNotGrowWithTheStates) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "the sanitizer keeps what was freed";
+#endif
   MakeStates(30);
   const fs::path many = Calibrated("many");
   const ProgramRun thirty = RunTelestrain(MeasureInto(many));
@@ -179,9 +181,7 @@ TEST_F(Measure, MemoryDoesNotGrowWithTheStates) {
 TEST_F(Measure, AnOptionOutsideItsRangeIsAnError) {
   for (const auto& [option, value] :
        {std::pair{"--subset-px", "40"}, {"--subset-px", "7"}, {"--step-px", "-1"}}) {
-    auto arguments = MeasureInto(results());
-    arguments.insert(arguments.end(), {option, value});
-    const ProgramRun run = RunTelestrain(arguments);
+    const ProgramRun run = RunTelestrain(MeasureInto(results(), {option, value}));
     EXPECT_EQ(run.exit_code, 2) << run.err;
     EXPECT_TRUE(Holds(run.err, option)) << run.err;
   }
@@ -202,8 +202,7 @@ class Watch : public Measure {
   }
   std::vector<std::string> WatchInto(const fs::path& out,
                                      const std::vector<std::string>& more) const {
-    auto arguments = MeasureInto(out);
-    arguments.insert(arguments.end(), {"--watch", arriving().string()});
+    auto arguments = MeasureInto(out, {"--watch", arriving().string()});
     arguments.insert(arguments.end(), more.begin(), more.end());
     return arguments;
   }
@@ -255,7 +254,8 @@ TEST_F(Watch, ASignalEndsItWithWholeResultsAndTheNextGoesOn) {
     // The table names images of a folder below it; they are matched by their names.
     RunningTelestrain program(WatchInto(out, {}));
     Arrive(1);
-    std::this_thread::sleep_for(500ms);  // the reference of the table is not there yet
+    for (int i = 0; i < 6000 && !Holds(program.ErrSoFar(), "waits for"); ++i)
+      std::this_thread::sleep_for(10ms);
     EXPECT_FALSE(fs::exists(out / "strain.csv"));
     Arrive(0);
     AwaitLines(out / "strain.csv", 3);

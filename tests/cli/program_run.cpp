@@ -7,6 +7,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
@@ -26,11 +28,13 @@ class Catch {
     if (!file_) throw std::runtime_error("no temporary file");
   }
   int Descriptor() const { return ::fileno(file_.get()); }
+  // Leaves the place where the program writes on, which is shared with it.
   std::string Text() const {
-    std::rewind(file_.get());
     std::string text;
-    for (int c = std::fgetc(file_.get()); c != EOF; c = std::fgetc(file_.get()))
-      text += static_cast<char>(c);
+    std::array<char, 4096> part{};
+    for (ssize_t got = 1; got > 0; text.append(part.data(), got))
+      got = std::max<ssize_t>(
+          0, ::pread(Descriptor(), part.data(), part.size(), static_cast<off_t>(text.size())));
     return text;
   }
 
@@ -110,6 +114,8 @@ bool RunningTelestrain::HasEnded() {
 void RunningTelestrain::Signal(int number) const {
   if (!child_->ended) ::kill(child_->id, number);
 }
+
+std::string RunningTelestrain::ErrSoFar() const { return child_->err.Text(); }
 
 ProgramRun RunningTelestrain::Wait() {
   child_->Wait(0);

@@ -39,6 +39,7 @@ class RunningTelestrain {
   RunningTelestrain& operator=(const RunningTelestrain&) = delete;
   bool HasEnded();
   void Signal(int number) const;
+  std::string ErrSoFar() const;
   ProgramRun Wait();
 
   struct Child;

@@ -66,17 +66,23 @@ TEST_F(SignVerb, SignsReplacesTheFileAndRecordsItInTheTrail) {
   EXPECT_EQ(ReadAll(Report()), after);
 }
 
-TEST_F(SignVerb, SignsNothingMadeOfResultsThatWereEdited) {
+TEST_F(SignVerb, SignsNothingBesideAFileThatWasEdited) {
   TakeRun({"run"});
-  const std::string before = ReadAll(Report());
-  std::ofstream(results() / "strain.json", std::ios::app) << " ";
+  for (const std::string name : {"strain.json", "residuals.csv", "report.pdf", "audit.jsonl"}) {
+    const std::string kept = ReadAll(results() / name);
+    std::ofstream(results() / name, std::ios::app) << "% edited\n";
+    const std::string before = ReadAll(Report());
+    const ProgramRun run = RunTelestrain(Words(
+        {"--role", "operator", "--p12", File("both.p12"), "--password-file", File("password")}));
+    EXPECT_EQ(run.exit_code, 3) << name;
+    EXPECT_NE(run.err.find(name), std::string::npos) << run.err;
+    EXPECT_TRUE(ReadAll(Report()) == before) << name;
+    std::ofstream(results() / name, std::ios::binary) << kept;
+  }
+  fs::remove(results() / "residuals.csv");
   const ProgramRun run = RunTelestrain(Words(
       {"--role", "operator", "--p12", File("both.p12"), "--password-file", File("password")}));
-  EXPECT_EQ(run.exit_code, 3);
-  EXPECT_NE(run.err.find("strain.json: was changed since 'telestrain measure' wrote it"),
-            std::string::npos)
-      << run.err;
-  EXPECT_EQ(ReadAll(Report()), before);
+  EXPECT_NE(run.err.find("residuals.csv is missing, which line"), std::string::npos) << run.err;
 }
 
 TEST_F(SignVerb, KeepsPermissionsAndLinksAndTellsTheTrailBesideTheSignedFile) {

@@ -51,6 +51,7 @@ TEST(Usage, AnOptionOutsideItsRangeIsAnErrorWithTheRange) {
   ExpectUsageError({"simulate", "--out", "session", "--noise-gray", "99"}, "0 to 20 gray");
   ExpectUsageError({"simulate", "--out", "session", "--binning", "two"}, "--binning");
   ExpectUsageError({"simulate", "--out", "session", "--document", "date"}, "KEY=TEXT");
+  ExpectUsageError({"simulate", "--out", "session", "--document", "date=2026-02-30"}, "ISO 8601");
   EXPECT_FALSE(std::filesystem::exists("session"));
 }
 

@@ -49,7 +49,7 @@ std::string MessageAt(const std::string& code, std::size_t i) {
 
 std::vector<SourceMessage> MessagesOf(const std::string& code, const std::string& name) {
   static const std::regex call(
-      R"(\b(BadInput|EstimationFailed|OutputFailed|WrongUsage|CannotRemove|Warn)\(|\bError\{ErrorKind)");
+      R"(\b(BadInput|EstimationFailed|OutputFailed|WrongUsage|CannotRemove|Warn|Doubt)\(|\bError\{ErrorKind)");
   std::vector<SourceMessage> messages;
   for (std::sregex_iterator i(code.begin(), code.end(), call), end; i != end; ++i) {
     const auto at = static_cast<std::size_t>(i->position());

@@ -13,7 +13,8 @@ struct SourceMessage {
 };
 
 // The messages handed to BadInput, EstimationFailed, OutputFailed, WrongUsage, CannotRemove,
-// Error{kind, …} and Warn in C++ code. A message without a literal part of its own is left out.
+// Error{kind, …}, Warn and Doubt in C++ code. A message without a literal part of its own is left
+// out.
 std::vector<SourceMessage> MessagesOf(const std::string& code, const std::string& name);
 
 // Those of every source of a module, such as "src/session".

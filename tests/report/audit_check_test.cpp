@@ -66,6 +66,21 @@ TEST_F(AuditCheckTest, FilesThatALaterStepTookAwayMayBeMissing) {
             "signature holds the trail's last 4 lines (--log anchors them)");
 }
 
+TEST_F(AuditCheckTest, OnlyAWholeSetThatWasDrawnLaterExcusesAMissingPicture) {
+  Append("render", {}, {FileOf("results", "pictures/a.png", "x")}, {{"view", ""}, {"out", ""}});
+  const std::vector<Json> others{{{"turntable", "RESULTS/film.gif"}},
+                                 {{"view", "side"}, {"out", ""}},
+                                 {{"view", ""}, {"out", "elsewhere"}}};
+  for (const Json& options : others) {
+    Append("render", {}, {}, options);
+    EXPECT_EQ(VerifiedFolder(),
+              "FAIL: pictures/a.png is missing, which line 4 (render) of the audit trail made")
+        << options;
+  }
+  Append("render", {}, {}, {{"view", ""}, {"out", "RESULTS/pictures"}});
+  EXPECT_TRUE(VerifiedFolder().starts_with("PASS: ")) << VerifiedFolder();
+}
+
 TEST_F(AuditCheckTest, TheTrailMustBeThereAndWhole) {
   EditTrail([](std::string& text) { text.erase(0, text.find('\n') + 1); });
   EXPECT_EQ(VerifiedFolder(), "FAIL: " + (Results() / "audit.jsonl").string() +

@@ -45,10 +45,12 @@ class AuditCheckTest : public ::testing::Test {
     ASSERT_TRUE(WriteFileAtomically(path, bytes).ok());
   }
   void Append(const std::string& type, const std::vector<Json>& inputs,
-              const std::vector<Json>& outputs) const {
+              const std::vector<Json>& outputs, const Json& options = Json::object()) const {
     auto trail = AuditTrail::Open(Results() / "audit.jsonl");
     ASSERT_TRUE(trail.ok()) << trail.error().message;
-    ASSERT_TRUE(trail->Append(type, {{"inputs", inputs}, {"outputs", outputs}}, "").ok());
+    ASSERT_TRUE(
+        trail->Append(type, {{"options", options}, {"inputs", inputs}, {"outputs", outputs}}, "")
+            .ok());
     ASSERT_TRUE(trail->Sync().ok());
   }
   std::string Trail() const { return *ReadFile(Results() / "audit.jsonl", kMostResultBytes); }
