@@ -45,8 +45,9 @@ TEST(Layouts, EveryTableOfTheResultsCanBeNamed) {
   WriteResults(PlausibleResults(), folder);
   ASSERT_TRUE(MakeResults(folder));
   const auto names = WordsOf("table");
-  for (const Json& table :
-       ListAt(Json::parse(FileBytes((folder / "results.json").string())), "/tables"))
+  const Json results = Json::parse(FileBytes((folder / "results.json").string()));
+  ASSERT_FALSE(ListAt(results, "/tables").empty());
+  for (const Json& table : ListAt(results, "/tables"))
     EXPECT_TRUE(names.count(TextAt(table, "/id"))) << TextAt(table, "/id");
 }
 
