@@ -167,8 +167,9 @@ class ThreadPool {
 // that it does not have.
 ThreadPool& Pool() {
   static ThreadPool* const pool = [] {
-    // OpenSSL's end, which takes what it keeps of every thread, comes after that of the threads.
-    ::OPENSSL_init_crypto(0, nullptr);
+    // OpenSSL's end, which takes what it keeps of every thread, comes after that of the threads. It
+    // begins with the first option that is asked of it.
+    ::OPENSSL_init_crypto(OPENSSL_INIT_ADD_ALL_DIGESTS, nullptr);
     auto* made = new ThreadPool;
     std::atexit([] {
       if (Pool().HasItsThreads()) delete &Pool();
