@@ -83,6 +83,7 @@ class Speckle {
 };
 
 inline void AddNoise(double sigma_gray, std::mt19937& random, GrayImage& image) {
+  if (!(sigma_gray > 0)) return;  // no normal distribution
   std::normal_distribution<float> noise(0, static_cast<float>(sigma_gray));
   for (float& value : image.pixels) value += noise(random);
 }
