@@ -5,6 +5,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <chrono>
 #include <string>
 #include <thread>
@@ -62,7 +63,7 @@ TEST(SignalsDeathTest, WhatIsToBeDoneIsDoneTheLatestFirst) {
 
 TEST(SignalsDeathTest, OneThatIsTakenDoesNotEnd) {
   const int status = StatusOf([] {
-    int taken = 0;
+    std::atomic<int> taken = 0;
     const AtSignal first([](int) { return AfterSignal::kEnd; });
     const AtSignal take([&](int) { return ++taken == 1 ? AfterSignal::kGoOn : AfterSignal::kEnd; });
     ::kill(::getpid(), SIGINT);
