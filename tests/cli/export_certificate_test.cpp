@@ -71,9 +71,7 @@ TEST_F(ExportCertificate, OfResultsThatWereEditedIsNone) {
   std::ofstream(results() / "results.json", std::ios::app) << " ";
   const ProgramRun run = RunExport({"--dcc", file().string()});
   EXPECT_EQ(run.exit_code, 3);
-  EXPECT_NE(run.err.find("results.json was changed after line"),
-            std::string::npos)
-      << run.err;
+  EXPECT_NE(run.err.find("results.json was changed after line"), std::string::npos) << run.err;
   EXPECT_FALSE(fs::exists(file()));
 }
 
