@@ -35,6 +35,8 @@ endfunction()
 
 set(TELESTRAIN_TIME_FACTOR 1 CACHE STRING
   "Factor on the time-outs of the tests, for builds that run slowly (sanitizers)")
+set(TELESTRAIN_PIN_TESTS OFF CACHE BOOL
+  "One processor a test: lines counted on two at once (coverage) take up to 24 times as long")
 
 # Called at the end of a folder of tests that names some by add_test(): the factor for those.
 # telestrain_test() has it already.
@@ -67,5 +69,6 @@ function(telestrain_test name)
     TELESTRAIN_SOURCE_DIR="${PROJECT_SOURCE_DIR}" TELESTRAIN_BINARY_DIR="${PROJECT_BINARY_DIR}")
   include(GoogleTest)
   gtest_discover_tests(${name} DISCOVERY_TIMEOUT ${discovery_seconds}
-    PROPERTIES TIMEOUT ${arg_TIMEOUT} LABELS "${arg_LABEL}")
+    PROPERTIES TIMEOUT ${arg_TIMEOUT} LABELS "${arg_LABEL}"
+               PROCESSOR_AFFINITY ${TELESTRAIN_PIN_TESTS})
 endfunction()
