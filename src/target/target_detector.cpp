@@ -71,8 +71,9 @@ LabelledGrid Examine(const GrayImage& image, const CornerLattice& lattice,
   return board;
 }
 
-// What a view without a grid shows.
-std::string WhyNoGrid(const GrayImage& image, const PixelRegion& region) {
+// What a view without a grid shows, and what was looked for there.
+std::string WhyNoGrid(const GrayImage& image, const TargetSearch& search) {
+  const PixelRegion& region = search.region;
   std::vector<float> levels;
   for (int y = region.y; y < region.y + region.height; y += 3)
     for (int x = region.x; x < region.x + region.width; x += 3) levels.push_back(image.At(x, y));
@@ -88,7 +89,8 @@ std::string WhyNoGrid(const GrayImage& image, const PixelRegion& region) {
                        FormatFixed(static_cast<double>(image.max_gray), 0);
   if (full_percent >= 1)
     reason += ", " + FormatFixed(full_percent, 0) + " % of its pixels are saturated";
-  return reason;
+  const double side = LongestSide_px(search);
+  return reason + "; looked for squares of " + FormatFixed(side, side < 10 ? 1 : 0) + " px";
 }
 
 std::vector<CornerLattice> FindGrids(const GrayImage& image, const TargetSearch& search) {
@@ -107,7 +109,7 @@ std::vector<CornerLattice> FindGrids(const GrayImage& image, const TargetSearch&
 LabelledGrid FindBoard(const GrayImage& image, const TargetSearch& search) {
   std::vector<LabelledGrid> boards;
   const auto lattices = FindGrids(image, search);
-  std::string reason = lattices.empty() ? WhyNoGrid(image, search.region) : "";
+  std::string reason = lattices.empty() ? WhyNoGrid(image, search) : "";
   for (std::size_t i = 0; i < std::min(lattices.size(), kMostGrids); ++i) {
     LabelledGrid board = Examine(image, lattices[i], search);
     if (i == 0) reason = board.labels.refused_because;  // of the largest grid

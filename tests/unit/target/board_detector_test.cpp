@@ -194,7 +194,9 @@ TEST(DetectBoard, RejectsAnEmptyViewAndSaysWhatItShows) {
   }
   GrayImage bright = testing::Blank(610, 460, 255);
   const auto reason = DetectBoard(bright, view.search).rejected_because;
-  EXPECT_NE(reason.find("100 % of its pixels are saturated"), std::string::npos) << reason;
+  EXPECT_NE(reason.find("100 % of its pixels are saturated; looked for squares of 30 px"),
+            std::string::npos)
+      << reason;
 }
 
 TEST(DetectBoard, RejectsABoardFarOutOfFocus) {
