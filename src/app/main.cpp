@@ -94,8 +94,19 @@ std::string UnknownWord(int argc, char** argv, const CLI::App& program) {
   return "";
 }
 
+// What the parser says, for the verb as far as it was read.
+std::string WrongUsage(const CLI::App* app, const CLI::Error& error) {
+  std::string path = "telestrain";
+  for (auto verbs = app->get_subcommands(); !verbs.empty(); verbs = app->get_subcommands()) {
+    app = verbs.front();
+    path += " " + app->get_name();
+  }
+  return path + ": " + error.what() + "\nRun '" + path + " --help' for what it takes.\n";
+}
+
 int Main(int argc, char** argv) {
   Program program;
+  program.app().failure_message(WrongUsage);
   if (const std::string complaint = UnknownWord(argc, argv, program.app()); !complaint.empty()) {
     std::cerr << complaint << '\n';
     return kUsageExit;

@@ -40,8 +40,9 @@ TEST(Usage, AnUnknownOptionIsNamed) {
 
 TEST(Usage, AMissingArgumentIsNamed) {
   for (const std::string verb : {"run", "detect", "calibrate", "verify", "measure"}) {
-    ExpectUsageError({verb, "--out", "results"}, "SESSION");
-    ExpectUsageError({verb, "session"}, "--out");
+    ExpectUsageError({verb, "--out", "results"}, "telestrain " + verb + ": SESSION is required");
+    ExpectUsageError({verb, "session"}, "telestrain " + verb + ": --out is required");
+    ExpectUsageError({verb, "session"}, "\nRun 'telestrain " + verb + " --help'");
   }
   for (const std::string verb : {"render", "report", "review"}) ExpectUsageError({verb}, "RESULTS");
   ExpectUsageError({"simulate"}, "--out");
