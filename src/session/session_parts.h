@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,6 +18,9 @@ inline constexpr char kCornerListSigns[] = " \t\n\v\f\r#";
 // What is read of a session, from session.toml or from its record.
 inline constexpr int kLargestSensor_px = 65536;
 inline constexpr int kFewestCorners = 3, kMostCorners = 200;  // of a board, along one side
+
+// The one way from degrees in session.toml to a session: writing looks for degrees that come back.
+constexpr double RadiansOf(double degrees) { return degrees * std::numbers::pi / 180.0; }
 
 // The parts of reading a session, in the order in which they run. Private to the module.
 

@@ -86,7 +86,7 @@ Status ReadBoard(const TomlNode& node, TargetSpec& target) {
   if (target.FindBoard(board.group))
     return BadInput(node.place + "group '" + board.group +
                     "' has two boards in [target]; keep one board per group");
-  board.rotation_rad = rotation_deg * std::numbers::pi / 180.0;
+  board.rotation_rad = RadiansOf(rotation_deg);
   target.boards.push_back(board);
   return {};
 }
@@ -113,7 +113,6 @@ FieldReader RulerTable(RulerSpec& ruler) {
 }
 
 Status ReadGauge(const TomlNode& node, PipeSpec& pipe) {
-  constexpr double kRadPerDeg = std::numbers::pi / 180.0;
   PipeGauge gauge;
   double angle_deg = 0, sigma_angle_deg = 0;
   int reads = 0;
@@ -130,8 +129,8 @@ Status ReadGauge(const TomlNode& node, PipeSpec& pipe) {
     if (other.column == gauge.column)
       return BadInput(node.place + "column '" + gauge.column +
                       "' has two [[pipe.gauge]]; keep one per column");
-  gauge.angle_rad = angle_deg * kRadPerDeg;
-  gauge.sigma_angle_rad = sigma_angle_deg * kRadPerDeg;
+  gauge.angle_rad = RadiansOf(angle_deg);
+  gauge.sigma_angle_rad = RadiansOf(sigma_angle_deg);
   gauge.reads_thermal_strain = reads == 1;
   pipe.gauges.push_back(gauge);
   return {};

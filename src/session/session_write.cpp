@@ -7,7 +7,7 @@
 #include "base/csv.h"
 #include "base/files.h"
 #include "base/numbers.h"
-#include "session/session.h"
+#include "session/session_parts.h"
 #include "session/toml_tree.h"
 
 namespace telestrain {
@@ -121,9 +121,7 @@ void WriteView(const NominalView& view, TomlWriter& toml) {
 
 // Degrees that read back to exactly `rotation_rad` where there are such, preferably short ones.
 double DegreesOf(double rotation_rad) {
-  const auto reads_back = [&](double degrees) {
-    return degrees * std::numbers::pi / 180.0 == rotation_rad;
-  };
+  const auto reads_back = [&](double degrees) { return RadiansOf(degrees) == rotation_rad; };
   const double quotient = rotation_rad * 180.0 / std::numbers::pi;
   const double rounded = std::round(quotient * 1e6) / 1e6;
   if (reads_back(rounded)) return rounded;

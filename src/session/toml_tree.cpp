@@ -39,7 +39,7 @@ void SetScalar(const toml::node& node, TomlNode& out) {
     out.text = std::to_string(integer->get());
   } else if (const auto* number = node.as_floating_point()) {
     out.kind = Kind::kFloat;
-    out.number = number->get();
+    out.number = number->get() + 0.0;  // no minus zero: it would be written as zero
     out.text = TomlFloat(number->get());
   } else if (const auto* boolean = node.as_boolean()) {
     out.kind = Kind::kBoolean;

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 #include <stdexcept>
 
@@ -147,6 +148,7 @@ TEST(WriteSessionTest, GaugePlacesAndTemperaturesAreReadBack) {
   session.pipe.gauges[0].column = "gauge_1_microstrain";
   session.pipe.gauges[0].angle_rad = 0.5 * std::numbers::pi;
   session.pipe.gauges[0].length_mm = 3;
+  session.pipe.gauges[0].sigma_angle_rad = 1e-7 * std::numbers::pi / 180;  // no short degrees
   session.pipe.gauges[1].column = "gauge_back_microstrain";
   session.pipe.gauges[1].axial_mm = -1.25;
   session.pipe.gauges[1].angle_rad = -std::numbers::pi;
@@ -155,6 +157,14 @@ TEST(WriteSessionTest, GaugePlacesAndTemperaturesAreReadBack) {
   session.pipe.gauges[1].reads_thermal_strain = true;
   session.pipe_states[0].temperature_c = 20;
   session.pipe_states[1].temperature_c = 21.5;
+  ExpectRoundTrip(session, sample.path());
+}
+
+TEST(WriteSessionTest, MinusZeroIsReadAsZeroSoThatItIsReadBack) {
+  const SampleFolder sample("minus_zero");
+  sample.Replace("session.toml", "sigma_square_um = 0.25", "sigma_square_um = -0.0");
+  const Session session = ReadOrFail(sample.path());
+  EXPECT_FALSE(std::signbit(session.target.sigma_square_um));
   ExpectRoundTrip(session, sample.path());
 }
 
