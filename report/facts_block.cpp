@@ -25,7 +25,7 @@ std::vector<FactTags> TagFacts(PdfDocument& pdf, std::size_t count) {
 
 std::string FactText(const Json& row) {
   const std::string unit = TextAt(row, "/2");
-  return CellText(row[1]) + (unit.empty() || unit == "°" ? "" : " ") + unit;
+  return CellText(EntryAt(row, "/1")) + (unit.empty() || unit == "°" ? "" : " ") + unit;
 }
 
 struct FactRows {
@@ -42,7 +42,8 @@ FactRows MakeFactRows(PageFlow& flow, const Json& table, int columns, double wid
   const double gap_pt = 14, column_pt = (width_pt - gap_pt * (columns - 1)) / columns;
   double name_pt = 0;
   for (const Json& fact : facts)
-    name_pt = std::max(name_pt, flow.pdf().TextWidth_pt(name_style, CellText(fact[0])) + 10);
+    name_pt =
+        std::max(name_pt, flow.pdf().TextWidth_pt(name_style, CellText(EntryAt(fact, "/0"))) + 10);
   name_pt = std::clamp(name_pt, 60.0, 0.62 * column_pt);
   FactRows made;
   made.frame.line_height_pt = value_style.LineHeight_pt();
@@ -52,8 +53,8 @@ FactRows MakeFactRows(PageFlow& flow, const Json& table, int columns, double wid
     std::vector<CellLines> cells;
     double x_pt = flow.left_pt();
     for (std::size_t i = line; i < facts.size(); i += lines, x_pt += column_pt + gap_pt) {
-      cells.push_back(
-          MakeCellLines(flow.pdf(), name_style, x_pt, name_pt - 6, CellText(facts[i][0])));
+      cells.push_back(MakeCellLines(flow.pdf(), name_style, x_pt, name_pt - 6,
+                                    CellText(EntryAt(facts[i], "/0"))));
       cells.push_back(MakeCellLines(flow.pdf(), value_style, x_pt + name_pt, column_pt - name_pt,
                                     FactText(facts[i])));
       if (tags.empty()) continue;

@@ -1,5 +1,6 @@
 #include "report/report_template.h"
 
+#include <algorithm>
 #include <set>
 
 #include "report/layout_file.h"
@@ -35,8 +36,20 @@ bool IsFacts(const Json& table) {
   return TextAt(table, "/columns/0/name") == "Name" && TextAt(table, "/columns/1/name") == "Value";
 }
 
+// Columns with names and, in every row, a cell for each, as all that draws tables takes for
+// granted.
+bool IsWhole(const Json& table) {
+  const Json &columns = EntryAt(table, "/columns"), &rows = EntryAt(table, "/rows");
+  const auto is_row = [&](const Json& row) {
+    return row.is_array() && !row.empty() && row.size() == columns.size();
+  };
+  const bool has_rows = rows.is_null() || rows.is_array();
+  return table.is_object() && columns.is_array() && has_rows &&
+         std::all_of(columns.begin(), columns.end(), [](const Json& c) { return c.is_object(); }) &&
+         std::all_of(rows.begin(), rows.end(), is_row);
+}
+
 void SayTable(const TextCatalogue& texts, Json& table) {
-  if (!table.is_object()) return;
   const bool facts = IsFacts(table);
   table["title"] = texts.SayPhrase(EntryAt(table, "/title"));
   for (Json& column : table["columns"]) {
@@ -102,9 +115,17 @@ std::string ReportTemplate::Fill(const std::string& text, const Json& values) co
   return FillText(texts_.Say(text), values);
 }
 
-Json ReportTemplate::SayTables(Json results) const {
-  if (results.contains("tables"))
-    for (Json& table : results["tables"]) SayTable(texts_, table);
+Result<Json> ReportTemplate::SayTables(Json results) const {
+  Json said = Json::array();
+  for (const Json& table : ListAt(results, "/tables")) {
+    if (!IsWhole(table))
+      return BadInput(
+          "results.json: the table '" + TextAt(table, "/id") +
+          "' has a column without a name or a row with more or fewer cells than columns; "
+          "make the file again with 'telestrain report'");
+    SayTable(texts_, said.emplace_back(table));
+  }
+  results["tables"] = std::move(said);
   return results;
 }
 

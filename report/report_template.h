@@ -44,8 +44,9 @@ class ReportTemplate {
   // A text of the layout in that language, with its {{…}} filled.
   std::string Fill(const std::string& text, const Json& values) const;
 
-  // results.json with the tables in that language: titles, columns, units, cells.
-  Json SayTables(Json results) const;
+  // results.json with the tables in that language: titles, columns, units, cells. kBadInput when a
+  // table has columns or rows that cannot be drawn.
+  Result<Json> SayTables(Json results) const;
   // What the {{…}} of texts can name: results.json without its tables, sentences in that language,
   // and beside it report.title, report.number ("without number" where there is none),
   // report.revision and section.ID, the numbers of the headings that are drawn.

@@ -76,9 +76,10 @@ Status WriteReport(const std::filesystem::path& results, const ReportOptions& op
   Json values = layout.FillValues(read);
   values["file"] = {{"results_sha256", Sha256Hex(bytes)}};
   TELESTRAIN_ASSIGN_OR_RETURN(std::vector<PdfAttachment> attachments, ReportAttachments(results));
-  Json extended = read;
-  extended["tables"].push_back(AttachmentsTable(attachments));
-  const Json said = layout.SayTables(std::move(extended));
+  Json extended = read, tables = ListAt(read, "/tables");
+  tables.push_back(AttachmentsTable(attachments));
+  extended["tables"] = std::move(tables);
+  TELESTRAIN_ASSIGN_OR_RETURN(const Json said, layout.SayTables(std::move(extended)));
   TELESTRAIN_ASSIGN_OR_RETURN(const auto pdf, PdfDocument::Create(options.level));
   PageFlow flow(*pdf, layout.look());
   flow.StartPage();

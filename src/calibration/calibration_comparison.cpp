@@ -176,16 +176,16 @@ template <typename ChangesFor>
 void AddVariance(const ArrayCalibration& array, const ChangesFor& changes_for,
                  std::vector<Change>& changes) {
   const Eigen::MatrixXd& covariance = array.covariance_of_noise;
-  Eigen::MatrixXd gradient(changes.size(), covariance.rows());
+  Eigen::MatrixXd gradient = Eigen::MatrixXd::Zero(changes.size(), covariance.rows());
   for (Eigen::Index p = 0; p < covariance.rows(); ++p) {
     const double step = std::sqrt(covariance(p, p));
+    if (!(step > 0)) continue;
     Eigen::VectorXd delta = Eigen::VectorXd::Zero(covariance.rows());
     delta(p) = step;
     const auto up = changes_for(array.Perturbed(delta)),
                down = changes_for(array.Perturbed(-delta));
     for (std::size_t i = 0; i < changes.size(); ++i)
-      gradient(static_cast<Eigen::Index>(i), p) =
-          step > 0 ? (up[i].value - down[i].value) / (2 * step) : 0;
+      gradient(static_cast<Eigen::Index>(i), p) = (up[i].value - down[i].value) / (2 * step);
   }
   const Eigen::VectorXd variance = (gradient * covariance * gradient.transpose()).diagonal();
   for (std::size_t i = 0; i < changes.size(); ++i)

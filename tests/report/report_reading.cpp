@@ -116,7 +116,7 @@ std::vector<std::string> MissingOfTables(const Json& results, const ReportTempla
       missing.push_back(TextAt(table, "/id") + ": " + text);
   };
   const std::set<std::string> wanted = TablesOf(results, layout);
-  const Json said = layout.SayTables(results);
+  const Json said = layout.SayTables(results).value();
   for (const Json& table : ListAt(said, "/tables")) {
     if (wanted.count(TextAt(table, "/id")) == 0) continue;
     if (HasHead(table, layout)) expect(HeadOf(table), table);

@@ -118,6 +118,27 @@ TEST(ReportTemplate, NotesWhatALayoutAsksForInVain) {
     EXPECT_TRUE(LayoutNotes(*ReportTemplate::Load({{}, name, "en"}), Json::object()).empty());
 }
 
+TEST(ReportTemplate, TablesThatCannotBeDrawnAreNamed) {
+  const auto layout = ReportTemplate::Load({{}, "acceptance", "en"});
+  ASSERT_TRUE(layout) << layout.error().message;
+  const auto with = [](const Json& columns, const Json& rows) {
+    return Json{
+        {"tables", Json::array({{{"id", "boards"}, {"columns", columns}, {"rows", rows}}})}};
+  };
+  const Json column = Json::array({{{"name", "View"}}});
+  EXPECT_TRUE(layout->SayTables(with(column, nullptr)));
+  EXPECT_TRUE(layout->SayTables(with(column, Json::array({Json::array({"A1"})}))));
+  for (const Json& damaged :
+       {with(column, Json::array({"A1"})), with(column, Json::array({Json::array({"A1", "A2"})})),
+        with(column, Json::array({Json::array()})), with(Json::array({"View"}), nullptr),
+        with(column, "A1"), with("View", nullptr)}) {
+    const auto said = layout->SayTables(damaged);
+    ASSERT_FALSE(said) << damaged.dump();
+    EXPECT_EQ(said.error().kind, ErrorKind::kBadInput);
+    EXPECT_NE(said.error().message.find("the table 'boards'"), std::string::npos);
+  }
+}
+
 // Names that the session gave are never taken for wordings.
 TEST(ReportTemplate, SaysTablesAndSentencesNotWhatTheSessionNamed) {
   const auto layout = ReportTemplate::Load({{}, "acceptance", "de"});
@@ -131,7 +152,7 @@ TEST(ReportTemplate, SaysTablesAndSentencesNotWhatTheSessionNamed) {
       {"id": "b", "title": "Limit",
        "columns": [{"name": "Name"}, {"name": "Value"}, {"name": "Unit"}],
        "rows": [["Limit", "yes", "mm"]]}]})");
-  const Json said = layout->SayTables(results);
+  const Json said = layout->SayTables(results).value();
   EXPECT_EQ(TextAt(said, "/tables/0/title"), "Grenzwert");
   EXPECT_EQ(TextAt(said, "/tables/0/columns/0/name"), "Grenzwert");
   EXPECT_EQ(TextAt(said, "/tables/0/columns/0/unit"), "Byte");

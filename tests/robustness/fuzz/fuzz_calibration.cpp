@@ -39,6 +39,16 @@ void TryStates(const std::string& text) {
   }
 }
 
+// The comparison of a calibration with itself, with the uncertainty of one parameter: each costs as
+// much as the reading of the whole file.
+void TryComparison(const Session& session, ArrayCalibration array) {
+  Eigen::MatrixXd& covariance = array.covariance_of_noise;
+  const double variance = covariance.size() > 0 ? covariance(0, 0) : 0;
+  covariance.setZero();
+  if (covariance.size() > 0) covariance(0, 0) = variance;
+  Succeeds(CompareCalibrations(session, array, array));
+}
+
 }  // namespace
 
 void FuzzCalibration(std::string_view input) {
@@ -57,7 +67,7 @@ void FuzzCalibration(std::string_view input) {
   }
   const auto session = SessionIn(folder.path());
   if (!session) return;
-  if (array.ok()) Succeeds(CompareCalibrations(*session, *array, *array));
+  if (array.ok()) TryComparison(*session, *array);
   Succeeds(ReadCalibrationRecord(*session, folder.path()));
 }
 
