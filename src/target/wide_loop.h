@@ -7,9 +7,9 @@ namespace telestrain {
 
 // Loops over blocks of floats that the compiler turns into vector instructions. TELESTRAIN_WIDE
 // before a function makes two versions of its loops, with the same operations in the same order;
-// the processor chooses, every one gets the same bits.
+// the processor chooses, every one gets the same bits. It does so before a sanitizer has begun.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
-    !defined(__SANITIZE_ADDRESS__)
+    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define TELESTRAIN_WIDE __attribute__((target_clones("avx2", "default")))
 #else
 #define TELESTRAIN_WIDE

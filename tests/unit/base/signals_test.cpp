@@ -20,6 +20,7 @@ template <typename Body>
 int StatusOf(const Body& body) {
   const pid_t child = ::fork();
   if (child == 0) {
+    ::signal(SIGINT, SIG_DFL);  // shells ignore it for what runs in the background
     HandleSignals();
     body();
     ::_exit(0);
