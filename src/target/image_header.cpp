@@ -15,13 +15,14 @@ std::optional<ImageSize> BmpSize(std::string_view bytes) {
   return ImageSize{Unsigned(bytes, 18, 4, false), std::llabs(height)};  // top-down if negative
 }
 
-// "P5 width height ...", with comments from '#' to the line's end.
+// "P5 width height ...", with comments from '#' to the line's end. A number ends with white space:
+// of "1#6 12" readers make different numbers.
 std::optional<ImageSize> PnmSize(std::string_view bytes) {
   long long values[2] = {0, 0};
   std::size_t at = 2;
   for (long long& value : values) {
     while (at < bytes.size() && !std::isdigit(static_cast<unsigned char>(bytes[at]))) {
-      if (bytes[at] == '#') at = bytes.find('\n', at);
+      if (bytes[at] == '#') at = bytes.find_first_of("\n\r", at);
       if (at == std::string_view::npos) return std::nullopt;
       ++at;
     }
@@ -30,6 +31,8 @@ std::optional<ImageSize> PnmSize(std::string_view bytes) {
       if (digits > 9) return std::nullopt;
       value = 10 * value + (bytes[at] - '0');
     }
+    if (at < bytes.size() && !std::isspace(static_cast<unsigned char>(bytes[at])))
+      return std::nullopt;
   }
   return ImageSize{values[0], values[1]};
 }

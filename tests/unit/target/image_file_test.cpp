@@ -109,6 +109,14 @@ TEST_F(ImageFile, RefusesFilesThatBreakOff) {
   }
 }
 
+TEST_F(ImageFile, ANumberOfAHeaderEndsWithWhiteSpace) {
+  const std::string pixels(12, '\x40');
+  EXPECT_TRUE(ReadGrayImage(Write("comment.pgm", "P5\n4 #6 12\n3\n255\n" + pixels)).ok());
+  EXPECT_NE(MessageOf(ReadGrayImage(Write("joined.pgm", "P5\n4#6 12\n3\n255\n" + pixels)))
+                .find("does not begin like an image"),
+            std::string::npos);
+}
+
 TEST_F(ImageFile, RefusesHugeImagesBeforeDecoding) {
   std::string png("\x89PNG\r\n\x1A\n\0\0\0\x0DIHDR\0\1\0\0\0\1\0\0\x08\0\0\0\0", 29);
   EXPECT_NE(MessageOf(ReadGrayImage(Write("h.png", png))).find("65536 x 65536 px"),
